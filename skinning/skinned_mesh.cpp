@@ -341,6 +341,12 @@ Status SkinnedMesh::set_released(std::span<const std::uint32_t> vertices, bool i
 
 namespace {
 
+std::uint32_t count_of(std::span<const IndexRange> ranges) {
+  std::uint32_t count = 0;
+  for (const IndexRange& range : ranges) count += range.count;
+  return count;
+}
+
 /// Bytes that posing all vertices reads and writes.
 std::size_t bytes_of_all(const skinning::Blocks& blocks) {
   const std::size_t written = blocks.layout.has_tangents ? 40 : 24;
@@ -384,8 +390,7 @@ Status SkinnedMesh::deform(const BonePalette& palette, PosedBuffer& buffer,
     return out_of_memory();
   }
   if (!buffer.blocks_to_write_.empty()) {
-    std::uint32_t block_count = 0;
-    for (const IndexRange& range : buffer.blocks_to_write_) block_count += range.count;
+    const std::uint32_t block_count = count_of(buffer.blocks_to_write_);
     const std::size_t bytes = bytes_of_all(blocks);
     Tasks tasks;
     tasks.work.mesh = &blocks;

@@ -53,10 +53,11 @@ void History::add_to(MemoryUse& use) const {
   MemoryUse spare;
   std::swap(spare, use);
   for (const auto& entry : spare_) add_entry(*entry);
+  for (const SurfaceEditor::Redo& redo : spare_redos_) redo.add_to(use);
   std::swap(spare, use);
   use.add(0, spare.held() + spare_.capacity() * sizeof(spare_[0]));
-  use.add(borders_.of_operation.lips);
-  use.add(borders_.of_operation.rim_points);
+  use.add(borders_.lips);
+  use.add(borders_.rim_points);
 }
 
 void SurfaceEditor::add_to(MemoryUse& use) const {

@@ -11,6 +11,7 @@ namespace {
 constexpr double kOnSurface = 1e-6;      ///< Of the diagonal.
 constexpr double kTouches = 2e-6;        ///< Of the diagonal: faces at a place.
 constexpr double kParallel = 0.995;      ///< Cosine between faces that lie in each other.
+constexpr double kClearHeight = 1e-5;    ///< Of the diagonal: flatter faces have any direction.
 constexpr double kClearDirection = 0.5;  ///< Length of a mean of directions that says something.
 /// L1. A policy that moves the bind position of a vertex leaves it with weights that are not those
 /// of the place where it then stands, and with the texture coordinates of where it was made.
@@ -145,18 +146,21 @@ bool FaceAttributes::is_comparable(FaceAttribute attribute, Index mesh, Index ve
          has_attribute(attribute, reader_.source().character.meshes[match.mesh]);
 }
 
-/// Whether each face around a vertex of the target is parallel to one of these of the source.
+/// Whether each face around a vertex of the target is parallel to one of these of the source, and
+/// one of them is not a sliver, such as a triangle of a cap between two points of its rim.
 bool FaceAttributes::lies_in(Index vertex, std::span<const SurfacePlace> faces) {
   const BindSurface &source = reader_.source().surface, &target = reader_.target().surface;
   if (first_face_.empty()) collect_faces(target, first_face_, faces_);
+  bool has_clear_face = false;
   for (Index i = first_face_[vertex]; i < first_face_[vertex + 1]; ++i) {
+    has_clear_face |= height_of(target, faces_[i]) > kClearHeight * target.diagonal;
     const Vec3d own = normalized(area_of(target, faces_[i]));
     const auto is_parallel = [&](const SurfacePlace& place) {
       return dot(own, normalized(area_of(source, place.triangle))) >= kParallel;
     };
     if (std::ranges::none_of(faces, is_parallel)) return false;
   }
-  return first_face_[vertex] < first_face_[vertex + 1];
+  return has_clear_face;
 }
 
 double FaceAttributes::difference(FaceAttribute attribute, Index mesh, Index vertex,
