@@ -35,9 +35,9 @@ int main([[maybe_unused]] int count, [[maybe_unused]] char** arguments) {
   const auto report = torn->tear(
       pose, sunder::Stroke{{{0.6, 0.2, 1}, {0.6, 0.2, -1}}, {{0.4, 0.8, 1}, {0.4, 0.8, -1}}});
   if (!report) return std::printf("%s\n", report.error().text().data()), 1;
-  const sunder::Character& character = torn->model().character();
+  const sunder::Character& character = torn->character();
   if (report->runs != 1 || sunder::count_topology(character)->boundary_loops != 2) return 1;
-  if (!torn->advance(pose, 0.0)) return 1;
+  if (!torn->advance(pose, 0.0) || !torn->draw()) return 1;
   if (torn->mesh(0).positions.size() != character.meshes[0].positions.size()) return 1;
 
 #ifdef CONSUMER_IO
