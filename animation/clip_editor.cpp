@@ -163,8 +163,8 @@ std::vector<KeyTrack> ClipEditor::State::new_tracks(float time, const Pose& pose
   return added;
 }
 
-/// What a new track is at the other keys: at all of them, so that their poses stay when the track
-/// gets further keys, or at those around its first one.
+/// The values of a new track at the other keys: at all of them, so that their poses stay when the
+/// track gets further keys, or at those around its first one.
 void ClipEditor::State::add_rest_keys(const std::set<float>& times, float time, KeyedTracks wanted,
                                       KeyTrack& track) const {
   if (wanted != KeyedTracks::changed) {

@@ -24,7 +24,7 @@ struct AnimatedBone {
   bool has_translation = false, has_rotation = false, has_scale = false;
 };
 
-/// What of a pose a clip animates, found once.
+/// The parts of a pose that a clip animates, found once.
 struct AnimatedParts {
   std::vector<AnimatedBone> bones;           ///< Each bone once.
   std::vector<std::uint32_t> morph_weights;  ///< Ascending.

@@ -12,7 +12,7 @@ struct BytesPerPoint {
 };
 [[nodiscard]] BytesPerPoint bytes_per_point(const Scene& scene);
 
-/// What models of one asset cost, as counted by malloc.
+/// The memory of models of one asset, as counted by malloc.
 struct InstanceCosts {
   double untouched_bytes = 0;
   double packed_bytes_per_vertex = 0;  ///< Per new vertex, after one tear; with its pose.

@@ -7,8 +7,8 @@
 
 namespace sunder::bench {
 
-/// A ball with bumps, of about so many vertices, on a chain of bones, with a clip in which all bones
-/// move.
+/// A ball with bumps, of about so many vertices, on a chain of bones, with a clip in which all
+/// bones move.
 [[nodiscard]] std::shared_ptr<const Character> make_crowd_model(std::uint32_t vertices,
                                                                 std::uint32_t bones);
 

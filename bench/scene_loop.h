@@ -9,12 +9,12 @@ namespace sunder::bench {
 /// one thread.
 struct LoopTimes {
   std::uint32_t vertices = 0;  ///< Of the source.
-  double untorn = 0;     ///< Median frame before any tear, with all vertices posed.
-  double displaced = 0;  ///< The same while every vertex is displaced by tissue.
-  double stroke = 0;     ///< Median frame of the stroke.
-  double gaping = 0;     ///< Median frame while lips open.
+  double untorn = 0;           ///< Median frame before any tear, with all vertices posed.
+  double displaced = 0;        ///< The same while every vertex is displaced by tissue.
+  double stroke = 0;           ///< Median frame of the stroke.
+  double gaping = 0;           ///< Median frame while lips open.
   double gap = 0, cut = 0, drill = 0, undo = 0;  ///< The frames of these operations.
-  double worst = 0;      ///< Worst frame.
+  double worst = 0;                              ///< Worst frame.
 };
 
 /// @param repeats  the loop runs so many times; the least time counts for each frame.

@@ -3,8 +3,8 @@
 #include <cstdio>
 #include <optional>
 
-#include "bench/cut_summary.h"
 #include "bench/capped_cuts.h"
+#include "bench/cut_summary.h"
 #include "bench/in_turns.h"
 #include "bench/json_object.h"
 #include "bench/measure.h"

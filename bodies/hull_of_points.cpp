@@ -193,7 +193,7 @@ Faces few_corners(const Faces& all, Indices chosen, std::uint32_t count,
   return faces;
 }
 
-/// Of the corners of a polygon every n-th.
+/// Every n-th corner of a polygon.
 Indices few_corners(const Indices& corners, std::uint32_t count) {
   if (corners.size() <= count) return corners;
   Indices few;

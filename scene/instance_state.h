@@ -12,7 +12,7 @@
 
 namespace sunder {
 
-/// What an instance has once it is drawn.
+/// The parts of an instance that is drawn.
 struct DrawnParts {
   std::vector<BonePalette> palettes;  ///< One per skin.
   std::vector<scene::InstanceMesh> meshes;

@@ -8,7 +8,7 @@
 
 namespace sunder::scene {
 
-/// What an instance has once it is torn, or is about to be.
+/// The parts of an instance that is torn, or is about to be.
 struct TornParts {
   explicit TornParts(TornModel made) : model(std::move(made)) {}
 

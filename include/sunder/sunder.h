@@ -2,13 +2,13 @@
 
 // All public headers. A build that counts its compile time includes what it uses instead.
 
-#include <sunder/bodies/convex_hulls.h>
-#include <sunder/bodies/mass_properties.h>
 #include <sunder/animation/blend.h>
 #include <sunder/animation/clip_editor.h>
 #include <sunder/animation/clip_player.h>
 #include <sunder/animation/edit_pose.h>
 #include <sunder/animation/pull.h>
+#include <sunder/bodies/convex_hulls.h>
+#include <sunder/bodies/mass_properties.h>
 #include <sunder/core/api.h>
 #include <sunder/core/character.h>
 #include <sunder/core/clip.h>
@@ -40,10 +40,10 @@
 #include <sunder/skinning/vertex_arrays.h>
 #include <sunder/tear/blade_force.h>
 #include <sunder/tear/change_record.h>
-#include <sunder/tear/operation_job.h>
 #include <sunder/tear/contact.h>
-#include <sunder/tear/preview.h>
 #include <sunder/tear/detached_piece.h>
+#include <sunder/tear/operation_job.h>
+#include <sunder/tear/preview.h>
 #include <sunder/tear/refit_job.h>
 #include <sunder/tear/report.h>
 #include <sunder/tear/tear_stroke.h>

@@ -114,7 +114,7 @@ Json ClipPatch::animation_of(const Clip& clip, const Json& old) {
     const char* const path = kPaths[static_cast<std::size_t>(channel.target)];
     Json written = {{"sampler", animation["samplers"].size() - 1},
                     {"target", {{"node", node}, {"path", path}}}};
-    // Of several channels with the same target the last one applies, as in a pose; glTF allows only
+    // The last one of several channels with the same target applies, as in a pose; glTF allows only
     // one.
     const auto [found, is_new] = channel_of.try_emplace({node, path}, animation["channels"].size());
     if (is_new)

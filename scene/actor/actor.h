@@ -43,7 +43,7 @@ class Actor {
   /// Runs as a task: touches nothing but this object.
   void update(const Frame& frame);
 
-  /// What plays. @throws std::bad_alloc
+  /// The player. @throws std::bad_alloc
   [[nodiscard]] ClipPlayer& player(double now) {
     return playback_.player(instance.asset()->character(), now);
   }
@@ -65,7 +65,7 @@ class Actor {
   void touch() { is_packed_ = false; }
   /// Frees what only an active instance needs.
   void fall_idle() noexcept;
-  /// What a snapshot keeps of an actor, in addition to its instance.
+  /// The part of an actor that a snapshot keeps, in addition to its instance.
   struct State {
     bool is_visible = true, has_new_pose = true;
     double screen_height = 0, now = 0, last_operation = 0;

@@ -92,7 +92,7 @@ void DrawTriangles::list_ranges(const Mesh& mesh) {
 
 void DrawTriangles::shorten_log() {
   if (log_.size() < next_shortening_) return;
-  // Of several writes to a place, the last one counts. A reader who saw only a part of them is told
+  // The last one of several writes to a place counts. A reader who saw only a part of them is told
   // of all places again.
   std::stable_sort(log_.begin(), log_.end(), [](const TriangleWrite& a, const TriangleWrite& b) {
     return a.place < b.place;

@@ -67,7 +67,7 @@ struct PieceFinder {
   }
 
  private:
-  /// Of several equally near faces the first. @param bone  kNone: any.
+  /// The first one of several equally near faces. @param bone  kNone: any.
   [[nodiscard]] Index nearest_face(const Vec3d& point, Index bone) const {
     const Surface& surface = work.editor.surface();
     const Frame frame = work.posed.frame_along(axes_along(Vec3d::Zero()), work.editor);

@@ -46,7 +46,7 @@ class Filling {
   struct Submesh {
     Index mesh, submesh;
   };
-  /// What moves the normals of a bone.
+  /// The matrix that moves the normals of a bone.
   struct NormalMatrix {
     Mat3d linear;
     bool is_known = false;

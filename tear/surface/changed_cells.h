@@ -7,7 +7,7 @@
 
 namespace sunder::tear {
 
-/// Which cells of a model's source the operations changed. The faces of a clean node are as they
+/// The cells of a model's source that operations changed. The faces of a clean node are as they
 /// were in the source, with the same neighbours.
 class ChangedCells {
  public:

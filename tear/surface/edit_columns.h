@@ -166,8 +166,7 @@ void for_each_common_column(Visit visit, Tables&... of) {
 /// Calls visit(Column, values...) for each column of a mesh.
 template <class Visit, class... Tables>
 void for_each_mesh_column(Index mesh, Visit visit, Tables&... of) {
-  visit(Column{Rows::mesh_vertices},
-        MeshVertices{of.meshes[mesh]}...);
+  visit(Column{Rows::mesh_vertices}, MeshVertices{of.meshes[mesh]}...);
   visit(Column{Rows::mesh_vertices}, of.edit.meshes[mesh].births...);
   visit(Column{Rows::mesh_vertices}, of.edit.meshes[mesh].records...);
   visit(Column{Rows::mesh_triangles}, of.meshes[mesh].triangles...);

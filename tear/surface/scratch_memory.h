@@ -17,7 +17,7 @@ class ScratchMemory final : public std::pmr::memory_resource {
 
   /// Releases all that was handed out.
   void reset();
-  /// Of all blocks.
+  /// Size of all blocks.
   [[nodiscard]] std::size_t bytes() const;
 
   /// Releases at its end what was handed out during its life: it must outlive what lies there. So

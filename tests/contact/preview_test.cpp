@@ -228,7 +228,7 @@ TEST(Preview, it_returns_the_errors_of_the_operation) {
 }
 
 #if defined(__GLIBC__)
-/// What it needed serves the next one.
+/// Its memory serves the next one.
 TEST(Preview, memory_does_not_grow_with_the_number_of_previews) {
   Random random(1);
   const Character tube = test::make_tube(20, 40, 5);

@@ -176,7 +176,7 @@ TEST(saved_particles, go_on_with_the_same_bits) {
     ASSERT_NO_FATAL_FAILURE(expect_same(first, second, shared.pose));
     Random one(seed + 100), other(seed + 100);
     for (int i = 0; i < 25; ++i) {
-      // What was undone before is not saved: its redo would be another operation.
+      // Operations that were undone before are not saved: its redo would be another operation.
       if (first.model->redo_count() > second.model->redo_count()) {
         ASSERT_TRUE(test::play(*first.model, test::random_operation(*first.model, one)));
         break;

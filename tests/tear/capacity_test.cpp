@@ -334,7 +334,7 @@ TEST(Capacity, strokes_of_few_blades_allocate_nothing_after_long_ones) {
     ASSERT_TRUE(report);
     EXPECT_GT(report->runs, 0u);
   }
-  // What is recorded is what was torn.
+  // The record holds what was torn.
   const auto history = model.history();
   ASSERT_TRUE(history);
   ASSERT_EQ(history->size(), 8u);

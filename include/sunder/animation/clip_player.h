@@ -9,7 +9,7 @@
 
 namespace sunder {
 
-/// What a layer does when its clip is over.
+/// The course of a layer whose clip is over.
 enum class PlayMode : std::uint8_t {
   loop,       ///< Begins again.
   ping_pong,  ///< Turns around at both ends.
@@ -39,12 +39,12 @@ struct LayerOptions {
       1.0;  ///< Seconds of the clip per second; negative plays backwards, 0 stands still.
   float weight = 1.0f;   ///< In [0, 1].
   double fade_in = 0.0;  ///< Seconds from weight 0 to `weight`.
-  /// Of a clip played once: it fades out over its last seconds and ends with the clip. 0: it holds
+  /// A clip that is played once fades out over its last seconds and ends with the clip. 0: it holds
   /// its last pose.
   double fade_out = 0.0;
   Easing easing = Easing::smooth;
   std::shared_ptr<const BoneMask> mask = nullptr;  ///< Null: all bones.
-  /// Of an additive layer: the pose to which its difference is taken. Null: the rest pose.
+  /// The pose to which an additive layer takes its difference. Null: the rest pose.
   std::shared_ptr<const Pose> reference = nullptr;
 };
 
@@ -142,7 +142,7 @@ class SUNDER_API ClipPlayer {
   /// Whether revision() increased since the last evaluate(); true before the first one.
   [[nodiscard]] bool has_changed() const;
 
-  /// What plays, as plain data. @return limit_exceeded: out of memory.
+  /// The layers, as plain data. @return limit_exceeded: out of memory.
   [[nodiscard]] Result<ClipPlayerState> state() const;
   /// Makes the player one whose state was kept: it goes on with the same bits and the same ids.
   /// @return as play() for the clips and options; invalid_argument, index_out_of_range for slots

@@ -23,7 +23,7 @@ struct MassOptions {
   /// Bodies of open surfaces: `fans` or `shell`. A surface that encloses no volume is a shell in
   /// any case.
   SolidRule open_surfaces = SolidRule::fans;
-  /// Of shells, metres, >= 0. 0: 1 % of the square root of the area.
+  /// Thickness of shells, metres, >= 0. 0: 1 % of the square root of the area.
   double shell_thickness = 0.0;
 };
 

@@ -53,9 +53,9 @@ struct DrawRange {
   bool operator==(const DrawRange&) const = default;
 };
 
-/// What instances of one character share: the character, its skinning data, the structures that
-/// tears start from, and the decomposition of its tissue. Immutable, so any number of instances on
-/// any threads may use it. Prepare it on a loading thread.
+/// The data that instances of one character share: the character, its skinning data, the structures
+/// that tears start from, and the decomposition of its tissue. Immutable, so any number of
+/// instances on any threads may use it. Prepare it on a loading thread.
 class SUNDER_API CharacterAsset {
  public:
   /// @param character  satisfies validate_character(); kept.

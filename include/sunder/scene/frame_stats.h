@@ -4,7 +4,7 @@
 
 namespace sunder {
 
-/// What an update of a Scene did, and what it left out and why.
+/// Figures of an update of a Scene: the work that was done, and the work that was left out and why.
 struct FrameStats {
   std::uint64_t frame = 0;      ///< Number of the update, from 1.
   std::uint32_t instances = 0;  ///< All that exist.

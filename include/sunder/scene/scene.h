@@ -69,7 +69,7 @@ class SUNDER_API Scene {
 
   /// Plays a clip of the asset. @return as ClipPlayer::play(); index_out_of_range for the clip.
   Result<LayerId> play(InstanceId instance, std::uint32_t clip, const LayerOptions& options = {});
-  /// What plays on an instance, for layers, cross-fades, and clips that are edited while they play.
+  /// The player of an instance, for layers, cross-fades, and clips that are edited while they play.
   /// The scene advances it. Null if the instance does not exist, or without memory. Valid until the
   /// instance is destroyed, or the next update().
   [[nodiscard]] ClipPlayer* player(InstanceId instance);
@@ -104,7 +104,7 @@ class SUNDER_API Scene {
   /// O(active instances, and what changed in them). No allocation once warm without commands.
   Status update(double seconds);
 
-  /// What the last update did.
+  /// Figures of the last update.
   [[nodiscard]] const FrameStats& stats() const;
   /// The outcomes of the commands of the last update, ascending. Valid until the next update.
   [[nodiscard]] std::span<const CommandResult> results() const;

@@ -16,7 +16,7 @@ struct CuttingResistance {
   double greatest = 1e6;
 };
 
-/// What a blade did since the last frame.
+/// The motion of a blade since the last frame.
 struct BladeStep {
   double length_torn = 0.0;      ///< TearReport::length_posed of the frame, metres; >= 0.
   double depth = 0.0;            ///< Of the tip below the surface, metres; <= 0: outside.

@@ -17,8 +17,8 @@ struct OperationTask;
 ///   if (job->poll() == OperationJob::State::done) job->swap_in(model, &change);  // a later frame
 ///
 /// The operation runs on a replica of the model; swap_in() takes over what it changed. Copies refer
-/// to the same job. run() and poll() may be called from any thread; create() and swap_in() only from
-/// the thread that uses the model.
+/// to the same job. run() and poll() may be called from any thread; create() and swap_in() only
+/// from the thread that uses the model.
 class SUNDER_API OperationJob {
  public:
   enum class State : std::uint8_t { waiting, running, done, failed, swapped_in };
@@ -27,9 +27,9 @@ class SUNDER_API OperationJob {
   /// @return invalid_argument for those and while a stroke is in progress; as
   ///         TornModel::history(). O(size of the operations), allocates.
   static Result<OperationJob> create(TornModel& model, const Operation& operation);
-  /// Replays the history and runs the operation. Call it once, on any thread; it does not access the
-  /// model. O(size of the model + its operations). The result has the same bits as the call of the
-  /// operation.
+  /// Replays the history and runs the operation. Call it once, on any thread; it does not access
+  /// the model. O(size of the model + its operations). The result has the same bits as the call of
+  /// the operation.
   void run() const;
   [[nodiscard]] State poll() const;
   /// The cause, if poll() returns `failed`: what the call of the operation returns.

@@ -7,7 +7,7 @@
 
 namespace sunder {
 
-/// What an operation would do.
+/// The effect that an operation would have.
 struct OperationPreview {
   /// The report that the operation would return, number for number. `runs` is 0 if it would miss.
   /// Triangles of pieces have the indices that they would get.
@@ -20,7 +20,7 @@ struct OperationPreview {
   /// If it would miss: the least distance between what the blade sweeps, or the axis of the bore,
   /// and the surface, metres; infinity for a cut.
   double miss_distance = 0.0;
-  // Of the triangles that would change. Ascending, without repetition.
+  // Those of the triangles that would change. Ascending, without repetition.
   std::vector<std::uint32_t> meshes;
   std::vector<std::uint32_t> materials;
   std::vector<std::uint32_t> bones;  ///< In the skeleton: those that move a vertex.
