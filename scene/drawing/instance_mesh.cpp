@@ -12,9 +12,11 @@ StridedFloats<float> floats_of(std::vector<Vector>& values) {
   return {values.empty() ? nullptr : values[0].data(), 0};
 }
 
+/// Grows by a little, because tears append few vertices to many.
 template <class Vector>
 void resize_within(std::size_t room, Index count, std::vector<Vector>& values) {
-  values.reserve(room);
+  if (values.capacity() < count)
+    values.reserve(std::max(room, std::size_t{count} + (values.empty() ? 0 : count / 64 + 32)));
   values.resize(count);
 }
 
