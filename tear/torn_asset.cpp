@@ -37,7 +37,7 @@ std::shared_ptr<const TornAsset> TornAsset::Parts::make_private(
 
 std::unique_ptr<TornModel::State> TornAsset::Parts::make_workspace(const TornCapacity& capacity) {
   return std::make_unique<TornModel::State>(
-      character, is_private ? std::move(surface) : tear::Surface(surface), *trees, capacity);
+      character, is_private ? std::move(surface) : tear::Surface(surface), *trees, capacity, cells);
 }
 
 std::unique_ptr<TornModel::State> TornAsset::Parts::take(const TornCapacity& capacity) {
@@ -76,6 +76,7 @@ Result<std::shared_ptr<const TornAsset>> TornAsset::create(
     auto parts = std::make_unique<Parts>(std::move(character));
     parts->idle.reserve(parts->kept);
     (void)parts->trees->of_meshes();
+    parts->cells = tear::make_cells(parts->surface, *parts->character);
     return std::shared_ptr<const TornAsset>(new TornAsset(std::move(parts)));
   } catch (const std::bad_alloc&) {
     return out_of_memory();
@@ -118,7 +119,8 @@ TornMemory TornAsset::memory_bytes() const {
   TornMemory memory;
   tear::MemoryUse use;
   use.add(parts_->surface);
-  memory.shared = sizeof(TornAsset) + sizeof(Parts) + use.held() + parts_->trees->bytes();
+  memory.shared = sizeof(TornAsset) + sizeof(Parts) + use.held() + parts_->trees->bytes() +
+                  (parts_->cells ? parts_->cells->bytes() : 0);
   const std::lock_guard lock(parts_->mutex);
   for (const auto& workspace : parts_->idle) memory.reserved += workspace->memory_use().held();
   return memory;

@@ -31,6 +31,7 @@ struct TornAsset::Parts {
   const std::shared_ptr<const Character> character;
   tear::Surface surface;  ///< Empty in a private asset whose model was made.
   const std::unique_ptr<const tear::SourceTrees> trees;
+  std::shared_ptr<const tear::SurfaceCells> cells;  ///< Null in a private asset.
   bool is_private = false;
 
   std::mutex mutex;  ///< Of what follows.

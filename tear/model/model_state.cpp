@@ -14,12 +14,14 @@
 namespace sunder {
 
 TornModel::State::State(std::shared_ptr<const Character> from, tear::Surface surface,
-                        const tear::SourceTrees& trees, const TornCapacity& of)
+                        const tear::SourceTrees& trees, const TornCapacity& of,
+                        std::shared_ptr<const tear::SurfaceCells> cells)
     : source(std::move(from)),
       capacity(of),
       character(*source),
       editor(*source, character, std::move(surface)) {
   posed.forest().share(trees);
+  if (cells) editor.changed_cells.share(std::move(cells));
   editor.reserve(capacity);
   untorn_ = editor.mark();
   if (!capacity.is_fixed()) return;

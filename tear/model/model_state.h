@@ -23,7 +23,8 @@ struct TornModel::State {
   /// @param surface  of the character, as build_surface() makes it.
   /// @param trees    of the character, kept by reference.
   State(std::shared_ptr<const Character> from, tear::Surface surface,
-        const tear::SourceTrees& trees, const TornCapacity& of);
+        const tear::SourceTrees& trees, const TornCapacity& of,
+        std::shared_ptr<const tear::SurfaceCells> cells = nullptr);
 
   /// Moves all that the operations made into a compact form. Afterwards nothing is torn and no
   /// operation is recorded. @throws std::bad_alloc: nothing changes

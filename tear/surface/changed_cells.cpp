@@ -20,6 +20,18 @@ std::vector<float> areas_of(const Character& source) {
 
 }  // namespace
 
+std::shared_ptr<const SurfaceCells> make_cells(const Surface& surface, const Character& source) {
+  return std::make_shared<const SurfaceCells>(surface.twin, areas_of(source));
+}
+
+void ChangedCells::share(std::shared_ptr<const SurfaceCells> cells) {
+  std::vector<Index> changed(cells->node_count(), 0), marks(cells->node_count(), kNone);
+  cells_ = std::move(cells);
+  changed_ = std::move(changed);
+  marks_ = std::move(marks);
+  seen_ = 0;
+}
+
 std::shared_ptr<const SurfaceCells> ChangedCells::build() const {
   // The surface as it was before any operation: its first change tells the twins of a triangle.
   const Surface& surface = columns_.surface;
@@ -33,14 +45,7 @@ std::shared_ptr<const SurfaceCells> ChangedCells::build() const {
 }
 
 void ChangedCells::update() {
-  if (!cells_) {
-    std::shared_ptr<const SurfaceCells> cells = build();
-    std::vector<Index> changed(cells->node_count(), 0), marks(cells->node_count(), kNone);
-    cells_ = std::move(cells);
-    changed_ = std::move(changed);
-    marks_ = std::move(marks);
-    seen_ = 0;
-  }
+  if (!cells_) share(build());
   const auto& changes = columns_.triangle_changes;
   for (; seen_ < changes.size(); ++seen_)
     if (is_first_of_source(changes[seen_])) count(changes[seen_].triangle);
@@ -65,7 +70,8 @@ void ChangedCells::discount(Index face) noexcept {
 }
 
 std::size_t ChangedCells::bytes() const {
-  return (changed_.capacity() + marks_.capacity()) * sizeof(Index) + (cells_ ? cells_->bytes() : 0);
+  const bool is_own = cells_.use_count() == 1;  // otherwise the asset counts them
+  return (changed_.capacity() + marks_.capacity()) * sizeof(Index) + (is_own ? cells_->bytes() : 0);
 }
 
 }  // namespace sunder::tear

@@ -7,6 +7,10 @@
 
 namespace sunder::tear {
 
+/// The cells of a surface that no operation has changed. O(faces). @throws std::bad_alloc
+[[nodiscard]] std::shared_ptr<const SurfaceCells> make_cells(const Surface& surface,
+                                                             const Character& source);
+
 /// The cells of a model's source that operations changed. The faces of a clean node are as they
 /// were in the source, with the same neighbours.
 class ChangedCells {
@@ -14,7 +18,11 @@ class ChangedCells {
   ChangedCells(const Character& source, const EditColumns& columns)
       : source_(source), columns_(columns) {}
 
-  /// Takes in the changes since the last call. The first call also builds the cells, in O(faces).
+  /// Sets the cells of the source, which models share. To be called before any operation. @throws
+  /// std::bad_alloc
+  void share(std::shared_ptr<const SurfaceCells> cells);
+  /// Takes in the changes since the last call. The first call also builds the cells, in O(faces),
+  /// if none are shared.
   /// @throws std::bad_alloc before anything is changed
   void update();
   /// To be called before the log entries from `change` on are taken back.
