@@ -56,7 +56,6 @@ fuzz:
 	  build/fuzz/tests/fuzz/$${name}_fuzzer -max_total_time=$(fuzz_seconds) -timeout=5 -rss_limit_mb=2048 \
 	    -artifact_prefix=build/fuzz/found/$${name}_ build/fuzz/corpus/$$name tests/fuzz/corpus/$$name; done
 
-sources := core operation skinning weights tear particles scene io tools samples tests bench include
 format:
 	scripts/setup format
-	find $(sources) -path '*/node_modules' -prune -o \( -name '*.h' -o -name '*.cpp' \) -print0 | xargs -0 clang-format -i
+	git ls-files -z '*.h' '*.cpp' | xargs -0 clang-format -i

@@ -19,7 +19,8 @@ enum class ExitCode : int {
 /// The exit code for a failure; `otherwise` if the status code alone does not determine it.
 [[nodiscard]] ExitCode exit_code_of(StatusCode code, ExitCode otherwise);
 
-/// A text of io, in which options of the command stand for the members of LoadOptions that they set.
+/// A text of io, in which options of the command stand for the members of LoadOptions that they
+/// set.
 [[nodiscard]] std::string with_option_names(std::string text);
 
 /// The text of a failure for a line that begins with its place: without the name of the file that
