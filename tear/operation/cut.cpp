@@ -1,6 +1,7 @@
 #include "tear/operation/cut.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "core/internal/ordered.h"
 #include "tear/filling/caps.h"
@@ -14,28 +15,38 @@ namespace {
 
 bool is_near(const Vec3d& vector) { return vector.cwiseAbs().maxCoeff() <= kFarthestMetres; }
 
-/// The half-spaces bounded by the sides of a polygon in the plane. Empty if the polygon is not
-/// convex or has no area.
-std::vector<PlaneSide> sides_of(const std::vector<Vec3d>& bounds, const Vec3d& normal) {
-  Vec3d doubled_area = Vec3d::Zero();
-  for (std::size_t i = 0; i < bounds.size(); ++i)
-    doubled_area += (bounds[i] - bounds[0]).cross(bounds[(i + 1) % bounds.size()] - bounds[0]);
-  const double turn = dot(doubled_area, normal) < 0 ? -1.0 : 1.0;
-  std::vector<PlaneSide> sides;
-  for (std::size_t i = 0; i < bounds.size(); ++i) {
-    const Vec3d inward = turn * normal.cross(Vec3d(bounds[(i + 1) % bounds.size()] - bounds[i]));
-    const double length = norm(inward);
-    if (!(length > 0)) continue;  // a repeated corner
-    sides.push_back({inward / length, dot(inward, bounds[i]) / length});
-  }
+Vec3d doubled_area(const std::vector<Vec3d>& polygon) {
+  Vec3d area = Vec3d::Zero();
+  for (std::size_t i = 0; i < polygon.size(); ++i)
+    area += (polygon[i] - polygon[0]).cross(polygon[(i + 1) % polygon.size()] - polygon[0]);
+  return area;
+}
+
+/// The half-space bounded by the side of a polygon from corner `i` to the next. Nothing for a
+/// repeated corner.
+std::optional<PlaneSide> side_at(std::size_t i, const std::vector<Vec3d>& polygon,
+                                 const Vec3d& normal) {
+  const Vec3d inward = normal.cross(Vec3d(polygon[(i + 1) % polygon.size()] - polygon[i]));
+  const double length = norm(inward);
+  if (!(length > 0)) return std::nullopt;
+  return PlaneSide{inward / length, dot(inward, polygon[i]) / length};
+}
+
+/// The normal of the plane, turned so that the polygon goes round it counterclockwise.
+Vec3d turned_to(const std::vector<Vec3d>& polygon, const Vec3d& normal) {
+  return dot(doubled_area(polygon), normal) < 0 ? Vec3d(-normal) : normal;
+}
+
+/// Whether a polygon in the plane is convex and has an area. Allocates nothing.
+bool is_convex(const std::vector<Vec3d>& polygon, const Vec3d& normal) {
   double size = 0;
-  for (const Vec3d& corner : bounds) size = std::max(size, norm(corner - bounds[0]));
-  for (const PlaneSide& side : sides)
-    for (const Vec3d& corner : bounds)
-      if (side.value(corner) < -kConvexSizes * size) return {};
-  return std::abs(dot(doubled_area, normal)) > kFlatSquaredSizes * size * size
-             ? sides
-             : std::vector<PlaneSide>{};
+  for (const Vec3d& corner : polygon) size = std::max(size, norm(corner - polygon[0]));
+  const Vec3d up = turned_to(polygon, normal);
+  for (std::size_t i = 0; i < polygon.size(); ++i)
+    if (const auto side = side_at(i, polygon, up))
+      for (const Vec3d& corner : polygon)
+        if (side->value(corner) < -kConvexSizes * size) return false;
+  return dot(doubled_area(polygon), up) > kFlatSquaredSizes * size * size;
 }
 
 Status validate_sections(const std::vector<Vec3d>& sections) {
@@ -114,7 +125,7 @@ Status validate_cut(const PlaneCut& cut, const Skeleton& skeleton) {
       return Status::failure(StatusCode::invalid_argument, i,
                              "corner %u of the bounds lies beyond 1e60", i);
   }
-  if (sides_of(cut.bounds, cut.normal / norm(cut.normal)).empty())
+  if (!is_convex(cut.bounds, cut.normal / norm(cut.normal)))
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "the bounds are not a convex polygon in the plane of the cut");
   return {};
@@ -125,7 +136,9 @@ void cut_surface(const PlaneCut& cut, const Workpiece& work, Outcome& outcome) {
   const EditLog::Mark before = work.editor.mark();
   const Vec3d normal = cut.normal / norm(cut.normal);
   Sheet sheet{{normal, dot(normal, cut.point)}, {}};
-  for (const PlaneSide& side : sides_of(cut.bounds, normal)) sheet.bounds.push_back({side, kNone});
+  const Vec3d up = turned_to(cut.bounds, normal);
+  for (std::size_t i = 0; i < cut.bounds.size(); ++i)
+    if (const auto side = side_at(i, cut.bounds, up)) sheet.bounds.push_back({*side, kNone});
   const SectionLimits limits{cut.sections, cut.first_hit,
                              subtree_of(cut.bone, work.editor.character().skeleton)};
   const ScratchVector<Index> faces = faces_of_sections(

@@ -145,14 +145,19 @@ TEST(AllocationFailure, tears_with_other_weights_change_nothing) {
 }
 
 TEST(AllocationFailure, cuts_and_bores_change_nothing) {
-  const auto cut = [](Subject& subject) {
-    PlaneCut plane;
-    plane.point = Vec3d(0.0, 0.9, 0.0);
-    plane.normal = Vec3d(0.2, 1.0, 0.1);
-    plane.caps = true;
-    return status_of(subject.model.cut(subject.bind, plane, &subject.change));
-  };
-  ASSERT_NO_FATAL_FAILURE(starve_model(tubes(), nothing, cut));
+  PlaneCut whole;
+  whole.point = Vec3d(0.0, 0.9, 0.0);
+  whole.normal = Vec3d(0.2, 1.0, 0.1);
+  whole.caps = true;
+  PlaneCut limited = whole;
+  const Vec3d x = whole.normal.unitOrthogonal(), y = whole.normal.normalized().cross(x);
+  for (const auto& [right, up] : {std::pair(-9, -9), {9, -9}, {9, 9}, {-9, 9}})
+    limited.bounds.push_back(whole.point + right * x + up * y);
+  limited.bone = tubes()->skeleton.bones[0].name;
+  for (const PlaneCut& plane : {whole, limited})
+    ASSERT_NO_FATAL_FAILURE(starve_model(tubes(), nothing, [&](Subject& subject) {
+      return status_of(subject.model.cut(subject.bind, plane, &subject.change));
+    }));
   const auto drill = [](Subject& subject) {
     Bore bore;
     bore.origin = Vec3d(0.5, 0.5, 0.5);
