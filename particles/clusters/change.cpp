@@ -86,7 +86,7 @@ void exchange(Structure& structure, Change& change) {
   for (Index m = 0; m < vertex_points.size(); ++m)
     for (Index vertex = change.vertices[m]; vertex < vertex_points[m].size(); ++vertex)
       structure.journal.vertices.add({m, vertex});
-  structure.points.memberships_end = is_done ? change.memberships_before : change.memberships_after;
+  structure.points.ends = is_done ? change.ends_before : change.ends_after;
   ++structure.revision;
   for (const Change::OfPoint& of : change.changed_points) structure.dirty.push_back(of.point);
   for (Index point = change.points; point < structure.points.count(); ++point)

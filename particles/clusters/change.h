@@ -18,7 +18,7 @@ struct Change {
   std::uint64_t operation =
       0;  ///< TornModel::newest_operation() at its end; 0: in progress; kUnnamed: restored.
   Index points = 0, particles = 0, lips = 0;  ///< Counts before.
-  std::size_t memberships_before = 0, memberships_after = 0;
+  TableEnds ends_before, ends_after;
   std::vector<Index> vertices;  ///< Per mesh: the count before.
   /// Work that was left before, and when the operation was undone; null: none.
   std::shared_ptr<const PendingWork> pending_before, pending_after;

@@ -139,14 +139,18 @@ void describe_points(Tape& tape, PointTable& of, const PointTable& before) {
   // Those after the end are of operations that were undone.
   std::vector<ParticleMembership> more(
       of.memberships.begin() + static_cast<std::ptrdiff_t>(before.memberships.size()),
-      of.memberships.begin() + static_cast<std::ptrdiff_t>(of.memberships_end));
+      of.memberships.begin() + static_cast<std::ptrdiff_t>(of.ends.memberships));
   describe_each(tape, more);
   if (tape.is_reading()) {
     of.memberships = before.memberships;
     of.memberships.insert(of.memberships.end(), more.begin(), more.end());
-    of.memberships_end = of.memberships.size();
   }
-  describe_each(tape, of.older_lips);
+  std::vector<OnLip> older(of.older_lips.begin(),
+                           of.older_lips.begin() + static_cast<std::ptrdiff_t>(of.ends.older_lips));
+  describe_each(tape, older);
+  if (!tape.is_reading()) return;
+  of.older_lips = std::move(older);
+  of.ends = {of.memberships.size(), of.older_lips.size()};
 }
 
 void describe_vertex_points(Tape& tape, VertexPoints& of, const VertexPoints& before) {
@@ -191,7 +195,11 @@ void describe_front(Tape& tape, RepairScratch& of, const Band& band, Index point
 
 void describe_tears(Tape& tape, Structure& of) {
   if (tape.is_reading()) of.scratch.make_room(of.points.count());
-  describe_each(tape, of.tears.done);
+  std::vector<Change>& done = of.tears.done;
+  describe_each(tape, done);
+  if (tape.is_reading())
+    for (std::size_t i = 0; i < done.size(); ++i)
+      done[i].ends_after = i + 1 < done.size() ? done[i + 1].ends_before : of.points.ends;
   tape(of.tears.triangle_count);
   describe(tape, of.tears.waiting);
   bool has_band = of.tears.band != nullptr;
@@ -240,15 +248,18 @@ void describe(Tape& tape, PendingWork& of) {
   tape.all(of.to_grow);
 }
 
+void describe(Tape& tape, TableEnds& of) {
+  std::uint64_t memberships = of.memberships, older_lips = of.older_lips;
+  tape(memberships);
+  tape(older_lips);
+  of = {static_cast<std::size_t>(memberships), static_cast<std::size_t>(older_lips)};
+}
+
 void describe(Tape& tape, Change& of) {
   tape(of.points);
   tape(of.particles);
   tape(of.lips);
-  std::uint64_t before = of.memberships_before, after = of.memberships_after;
-  tape(before);
-  tape(after);
-  of.memberships_before = static_cast<std::size_t>(before);
-  of.memberships_after = static_cast<std::size_t>(after);
+  describe(tape, of.ends_before);
   tape.all(of.vertices);
   describe_each(tape, of.changed_points);
   tape.each(of.changed_particles, [&](std::pair<Index, Particle>& changed) {

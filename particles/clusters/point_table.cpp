@@ -20,6 +20,11 @@ void PointTable::put_on_lip(Index point, Index tear, Side side) {
   }
 }
 
+void PointTable::drop_undone() {
+  memberships.resize(ends.memberships);
+  older_lips.resize(ends.older_lips);
+}
+
 void PointTable::make_room(std::size_t points) {
   for_each_column(*this, [&](auto& column, auto&) { reserve_eighth(column, points); });
 }

@@ -44,13 +44,18 @@ struct PointColumns {
   }
 };
 
+/// Ends of the used entries of tables to which changes append; entries of undone changes follow.
+struct TableEnds {
+  std::size_t memberships = 0, older_lips = 0;
+};
+
 /// The points of the surface and the particles that they belong to.
 struct PointTable : PointColumns {
   /// The memberships of a point are contiguous, ascending by particle. A change appends the new
   /// ones and leaves the old ones in place, for undo.
   std::vector<ParticleMembership> memberships;
-  std::size_t memberships_end = 0;  ///< End of the used entries; those of undone changes follow.
-  std::vector<OnLip> older_lips;    ///< Only grows: redo may need entries of undone changes.
+  std::vector<OnLip> older_lips;
+  TableEnds ends;
 
   [[nodiscard]] Index count() const { return static_cast<Index>(positions.size()); }
   [[nodiscard]] std::span<const ParticleMembership> memberships_of(Index point) const {
@@ -77,6 +82,8 @@ struct PointTable : PointColumns {
   }
   /// Puts a point on a lip. It stays on the lips of other tears; later tears have higher numbers.
   void put_on_lip(Index point, Index tear, Side side);
+  /// Removes the entries of undone changes, which cannot be redone any more.
+  void drop_undone();
   /// Makes room for new points, by an eighth at a time.
   void make_room(std::size_t points);
 };

@@ -44,13 +44,13 @@ void Structure::make_room(std::size_t point_count) {
 void Structure::finish(Index triangles) {
   tears.triangle_count = triangles;
   points.lip_points.resize(points.count());
-  points.memberships_end = points.memberships.size();
+  points.ends = {points.memberships.size(), points.older_lips.size()};
 }
 
 void Structure::prepare_for_tears(Index triangles) {
   finish(triangles);
   make_room(points.count() + 1);
-  reserve_eighth(points.memberships, points.memberships_end + 1);
+  reserve_eighth(points.memberships, points.ends.memberships + 1);
   for (std::vector<Index>& of_mesh : vertex_points.of_mesh)
     reserve_eighth(of_mesh, of_mesh.size() + 1);
 }

@@ -9,7 +9,8 @@ namespace {
 
 /// The counts of a structure at some time.
 struct Counts {
-  std::size_t points, particles, lips, memberships;
+  std::size_t points, particles, lips;
+  TableEnds ends;
   std::span<const Index> vertices;
 };
 
@@ -78,12 +79,12 @@ void Check::influences(const ParticleInfluences& of, const Counts& in) {
 
 void Check::lip_point(const LipPoint& of, const Counts& in) {
   require(of.tear == kNone || of.tear < structure_.tears.done.size(), "the lip of a point");
-  require(of.older == kNone || of.older < structure_.points.older_lips.size(), "an older lip");
+  require(of.older == kNone || of.older < in.ends.older_lips, "an older lip");
   require(of.edge == kNone || of.edge < in.lips, "the lip edge of a point");
 }
 
 void Check::slab(const MembershipSlab& of, const Counts& in) {
-  const bool fits = std::size_t{of.first} + of.count <= in.memberships;
+  const bool fits = std::size_t{of.first} + of.count <= in.ends.memberships;
   require(fits, "memberships of a point");
   const std::vector<ParticleMembership>& memberships = structure_.points.memberships;
   for (Index i = 0; fits && i < of.count; ++i)
@@ -233,9 +234,9 @@ Status validate(const Structure& structure, const TornModel& model) {
     vertices.push_back(static_cast<Index>(of_mesh.size()));
   std::vector<Counts> levels;
   for (const Change& of : structure.tears.done)
-    levels.push_back({of.points, of.particles, of.lips, of.memberships_before, of.vertices});
+    levels.push_back({of.points, of.particles, of.lips, of.ends_before, of.vertices});
   levels.push_back({structure.points.count(), structure.particles.size(), structure.lips.size(),
-                    structure.points.memberships_end, vertices});
+                    structure.points.ends, vertices});
   for (std::size_t i = 0; i < levels.size(); ++i) {
     const Counts& of = levels[i];
     check.require(of.vertices.size() == vertices.size(), "the meshes before an operation");
@@ -243,7 +244,8 @@ Status validate(const Structure& structure, const TornModel& model) {
     if (i == 0) continue;
     const Counts& before = levels[i - 1];
     check.require(before.points <= of.points && before.particles <= of.particles &&
-                      before.lips <= of.lips && before.memberships <= of.memberships &&
+                      before.lips <= of.lips && before.ends.memberships <= of.ends.memberships &&
+                      before.ends.older_lips <= of.ends.older_lips &&
                       std::ranges::equal(before.vertices, of.vertices, std::less_equal<>()),
                   "the counts before an operation");
   }

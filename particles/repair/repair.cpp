@@ -21,12 +21,12 @@ void begin_change(Structure& structure) {
   tears.undone.clear();
   const std::shared_ptr<const PendingWork> pending = pending_work(structure);
   if (tears.waiting) resume_work(structure, pending, false);
-  structure.points.memberships.resize(structure.points.memberships_end);
+  structure.points.drop_undone();
   Change& change = tears.done.emplace_back();
   change.points = structure.points.count();
   change.particles = static_cast<Index>(structure.particles.size());
   change.lips = static_cast<Index>(structure.lips.size());
-  change.memberships_before = structure.points.memberships_end;
+  change.ends_before = structure.points.ends;
   for (const auto& points : structure.vertex_points.of_mesh)
     change.vertices.push_back(static_cast<Index>(points.size()));
   change.pending_before = pending;

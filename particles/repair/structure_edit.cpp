@@ -168,7 +168,8 @@ void StructureEdit::finish() {
     memberships.reserve(memberships.size() + memberships_.size() + memberships.size() / 8);
   for (const Work& work : works_) put_back(work);
   structure_.pairs->apply([&](Index particle) -> Particle& { return change_particle(particle); });
-  change_.memberships_after = structure_.points.memberships_end = memberships.size();
+  PointTable& points = structure_.points;
+  change_.ends_after = points.ends = {memberships.size(), points.older_lips.size()};
   ++structure_.revision;
 }
 

@@ -193,6 +193,55 @@ Scene torn_scene(const Assets& assets) {
   return scene;
 }
 
+/// Saves a scene, restores it, and compares both.
+void expect_restored(Scene& scene, const Assets& assets, const std::vector<InstanceId>& ids) {
+  Scene other = make_scene();
+  const auto restored = other.restore(value_of(scene.save()), assets);
+  ASSERT_TRUE(restored) << restored.text();
+  ASSERT_TRUE(scene.update(kFrame) && other.update(kFrame));
+  ASSERT_NO_FATAL_FAILURE(expect_same(scene, other, ids));
+}
+
+TEST(snapshot, soft_and_rigid_assets_of_a_character_are_told_apart) {
+  const Assets assets = {make_assets(false)[0], make_assets(true)[0]};
+  Scene scene = make_scene();
+  std::vector<InstanceId> ids;
+  for (const auto& asset : assets) {
+    ids.push_back(value_of(scene.spawn(asset)));
+    PlaneCut cut;
+    cut.point = Vec3d(0, 1, 0);
+    cut.normal = Vec3d(0.1, 1, 0);
+    ASSERT_TRUE(scene.submit(ids.back(), cut));
+  }
+  ASSERT_TRUE(scene.update(kFrame));
+  ASSERT_NO_FATAL_FAILURE(expect_restored(scene, assets, ids));
+  ASSERT_NO_FATAL_FAILURE(expect_restored(scene, {assets[1], assets[0]}, ids));
+}
+
+TEST(snapshot, an_undone_tear_across_others_leaves_nothing) {
+  CharacterAssetOptions soft;
+  soft.soft.emplace();
+  const Assets assets = {value_of(
+      CharacterAsset::create(std::make_shared<const Character>(test::make_sheet(10)), soft))};
+  Scene scene = make_scene();
+  const InstanceId id = value_of(scene.spawn(assets[0]));
+  const auto tear = [&](const Stroke& stroke) {
+    TearCommand command;
+    command.stroke = stroke;
+    ASSERT_TRUE(scene.submit(id, command) && scene.update(kFrame));
+  };
+  ASSERT_NO_FATAL_FAILURE(tear({test::down_at(0.1, 0.43), test::down_at(0.9, 0.52)}));
+  ASSERT_NO_FATAL_FAILURE(tear({test::down_at(0.43, 0.1), test::down_at(0.52, 0.9)}));
+  ASSERT_NO_FATAL_FAILURE(expect_restored(scene, assets, {id}));
+  for (int n = 0; n < 2; ++n) {
+    ASSERT_TRUE(scene.submit(id, UndoCommand{}) && scene.update(kFrame));
+    ASSERT_NO_FATAL_FAILURE(expect_restored(scene, assets, {id}));
+  }
+  ASSERT_TRUE(scene.submit(id, RedoCommand{}) && scene.submit(id, RedoCommand{}));
+  ASSERT_TRUE(scene.update(kFrame));
+  ASSERT_NO_FATAL_FAILURE(expect_restored(scene, assets, {id}));
+}
+
 TEST(snapshot, moments_of_clips_take_the_place_of_poses) {
   const Assets assets = make_assets(false);
   const Scene scene = torn_scene(assets);
