@@ -34,8 +34,8 @@ void transfer(Archive& archive, Actor::State& of) {
 
 /// An instance as a snapshot holds it.
 struct SavedInstance {
-  std::uint64_t character = 0;  ///< digest_of() its character.
-  bool is_prepared = false;     ///< Whether it has a torn model.
+  std::uint64_t asset = 0;   ///< digest_of() its asset.
+  bool is_prepared = false;  ///< Whether it has a torn model.
   std::vector<Operation> done, undone;
   std::optional<CharacterInstance::TissueState> tissue;
   Actor::State actor;

@@ -4,19 +4,19 @@
 
 #include "scene/saved_instance.h"
 #include "scene/scene_state.h"
-#include "scene/snapshot/character_digest.h"
+#include "scene/snapshot/asset_digest.h"
 
 namespace sunder {
 namespace scene {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x444E5553;  // "SUND"
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 
-/// All but the digest of the character, which says how poses are read.
+/// All but the digest of the asset, which says how poses are read.
 template <class Archive>
 void transfer_instance(Archive& archive, SavedInstance& of) {
-  auto& [character, is_prepared, done, undone, tissue, actor] = of;
+  auto& [asset, is_prepared, done, undone, tissue, actor] = of;
   archive(is_prepared, done, undone, tissue, actor);
 }
 
@@ -28,17 +28,17 @@ Status broken(const SnapshotReader& reader) {
 
 using Assets = std::span<const std::shared_ptr<const CharacterAsset>>;
 
-/// Finds assets by the digests of their characters.
+/// Finds assets by their digests.
 class AssetTable {
  public:
   AssetTable(Assets assets, const TornCapacity& capacity) : capacity_(capacity) {
     for (const auto& asset : assets)
-      if (asset) entries_.push_back({digest_of(*asset->character()), asset});
+      if (asset) entries_.push_back({digest_of(*asset), asset});
   }
   [[nodiscard]] const TornCapacity& capacity() const { return capacity_; }
   [[nodiscard]] std::shared_ptr<const CharacterAsset> find(std::uint64_t digest) const {
-    for (const auto& [of_character, asset] : entries_)
-      if (of_character == digest) return asset;
+    for (const auto& [of_asset, asset] : entries_)
+      if (of_asset == digest) return asset;
     return nullptr;
   }
 
@@ -60,7 +60,7 @@ Result<SavedInstance> describe(const Actor& actor) {
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "commands run in the background; update until they are done");
   SavedInstance saved;
-  saved.character = digest_of(*of.asset()->character());
+  saved.asset = digest_of(*of.asset());
   saved.actor = actor.state();
   saved.is_prepared = of.model() != nullptr;
   if (!saved.is_prepared) return saved;
@@ -114,14 +114,14 @@ Status read_slot(SnapshotReader& reader, const AssetTable& assets, Slot& slot) {
   if (reader.has_failed()) return broken(reader);
   if (!has_instance) return {};
   SavedInstance saved;
-  reader(saved.character);
-  const std::shared_ptr<const CharacterAsset> asset = assets.find(saved.character);
+  reader(saved.asset);
+  const std::shared_ptr<const CharacterAsset> asset = assets.find(saved.asset);
   if (!asset)
     return reader.has_failed()
                ? broken(reader)
                : Status::failure(StatusCode::not_found, kNone,
                                  "none of the assets is its character (digest %016llx)",
-                                 static_cast<unsigned long long>(saved.character));
+                                 static_cast<unsigned long long>(saved.asset));
   PoseMemory poses(asset->character(), {});
   reader.poses = &poses;
   transfer_instance(reader, saved);
@@ -153,7 +153,7 @@ Result<std::vector<std::byte>> Scene::save() const {
       if (!saved) return scene::in_slot(i, saved.error());
       scene::PoseMemory poses(slot.actor->instance.asset()->character(), slot.actor->origins());
       writer.poses = &poses;
-      writer(saved->character);
+      writer(saved->asset);
       scene::transfer_instance(writer, *saved);
     }
     return std::move(writer.bytes());

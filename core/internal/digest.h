@@ -14,11 +14,11 @@ class Digest {
  public:
   void add(std::uint32_t word) { value_ = (value_ ^ word) * 0x100000001B3u; }
   void add(float value) { add(std::bit_cast<std::uint32_t>(value)); }
-  void add(double value) {
-    const auto bits = std::bit_cast<std::uint64_t>(value);
-    add(static_cast<std::uint32_t>(bits));
-    add(static_cast<std::uint32_t>(bits >> 32));
+  void add(std::uint64_t word) {
+    add(static_cast<std::uint32_t>(word));
+    add(static_cast<std::uint32_t>(word >> 32));
   }
+  void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
   template <int N>
   void add(const Eigen::Matrix<float, N, 1, Eigen::DontAlign>& vector) {
     for (int i = 0; i < N; ++i) add(vector[i]);

@@ -1,4 +1,4 @@
-#include "scene/snapshot/character_digest.h"
+#include "scene/snapshot/asset_digest.h"
 
 #include "core/internal/digest.h"
 
@@ -33,10 +33,7 @@ void add(const Clip& clip, Digest& digest) {
   }
 }
 
-}  // namespace
-
-std::uint64_t digest_of(const Character& character) {
-  Digest digest;
+void add(const Character& character, Digest& digest) {
   for (const Bone& bone : character.skeleton.bones) add(bone, digest);
   for (const Skin& skin : character.skins) {
     digest.add(skin.bones);
@@ -46,6 +43,22 @@ std::uint64_t digest_of(const Character& character) {
   for (const Mesh& mesh : character.meshes) add(mesh, digest);
   digest.add(character.rest_morph_weights);
   for (const Clip& clip : character.clips) add(clip, digest);
+}
+
+void add(const DecompositionOptions& options, Digest& digest) {
+  digest.add(options.range);
+  digest.add(static_cast<std::uint32_t>(options.is_fraction));
+  digest.add(options.seed);
+}
+
+}  // namespace
+
+std::uint64_t digest_of(const CharacterAsset& asset) {
+  Digest digest;
+  add(*asset.character(), digest);
+  const CharacterAssetOptions& options = asset.options();
+  if (options.soft) add(options.soft->decomposition, digest);
+  if (options.coarser) digest.add(digest_of(*options.coarser));
   return digest.value();
 }
 

@@ -1,13 +1,14 @@
 #pragma once
 
-#include <sunder/core/character.h>
+#include <sunder/scene/character_asset.h>
 
 #include <cstdint>
 
 namespace sunder::scene {
 
-/// A hash of all that tears and motion depend on: meshes, skins, bones, clips. Equal characters
-/// have equal digests on every machine. O(size of the character).
-[[nodiscard]] std::uint64_t digest_of(const Character& character);
+/// A hash of all that tears and motion depend on: meshes, skins, bones, clips, how the surface is
+/// divided into particles, and coarser levels of detail. Equal assets have equal digests on every
+/// machine. O(size of the characters).
+[[nodiscard]] std::uint64_t digest_of(const CharacterAsset& asset);
 
 }  // namespace sunder::scene
