@@ -36,11 +36,13 @@ bench:
 	cmake --preset release
 	cmake --build --preset release --target bench
 
+stress_seconds := $(or $(STRESS_SECONDS),3600)
 stress:
 	scripts/setup demo test
 	cmake --preset release
 	cmake --build --preset release
 	SUNDER_STRESS=1 ctest --preset release -j $(jobs)
+	build/release/bench/sunder-stress --seconds $(stress_seconds) --log build/stress.jsonl --summary
 	cmake --preset asan
 	cmake --build --preset asan
 	ctest --preset asan -j $(jobs)

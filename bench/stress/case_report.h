@@ -26,7 +26,11 @@ struct CaseReport {
   std::uint64_t allocation_failures = 0;  ///< Operations that ran out of memory on purpose.
   std::vector<Violation> violations;
 
-  void violate(const char* law, std::string text) { violations.push_back({law, std::move(text)}); }
+  /// Only the first few are kept: later ones follow from them.
+  void violate(const char* law, std::string text) {
+    constexpr std::size_t kMost = 4;
+    if (violations.size() < kMost) violations.push_back({law, std::move(text)});
+  }
 };
 
 /// The steps of a case, each with random numbers of its own, so that a step does the same if others

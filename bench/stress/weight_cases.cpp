@@ -2,6 +2,8 @@
 
 #include <sunder/skinning/pose.h>
 
+#include <array>
+
 #include "bench/stress/families.h"
 #include "bench/stress/steps.h"
 #include "support/hard_operations.h"
@@ -16,7 +18,10 @@ using test::Random;
 /// Poses that are all the same, all collapsed, or contradict one another.
 WeightsOperation singular_fit(const Character& source, Random& random) {
   WeightsOperation wanted;
-  wanted.weights.policy = static_cast<WeightPolicy>(random.index(4));
+  // Not pose_exact, which may turn small faces over in bind space to meet such poses.
+  constexpr std::array kPolicies = {WeightPolicy::barycentric, WeightPolicy::refit,
+                                    WeightPolicy::exact};
+  wanted.weights.policy = kPolicies[random.index(3)];
   wanted.weights.maximum_influences = random.index(5);
   const ModelPose pose = test::hard_pose(source, random);
   wanted.pose = pose;
@@ -34,6 +39,7 @@ WeightsOperation singular_fit(const Character& source, Random& random) {
 void singular_refits(std::uint64_t seed, const Steps& steps, CaseReport& report) {
   Random random = random_of(seed, 0);
   TornSubject subject(test::random_character(random), report);
+  subject.accept(StatusCode::empty_input);  // no pose to fit over
   run_steps(subject, seed, steps, 3, [](TornSubject& of, Random& numbers, std::uint32_t) {
     of.operate(test::random_operation(of.model(), numbers));
     of.reweigh(singular_fit(of.model().source(), numbers));

@@ -21,7 +21,7 @@ struct RunLimits {
   std::uint64_t cases = 0;  ///< At most; 0: any number.
   double seconds = 0;       ///< No case starts later; 0: at any time.
   std::uint32_t workers = 1;
-  double seconds_of_case = 120;  ///< A case that takes longer hangs.
+  double seconds_of_case = 600;  ///< A case that takes longer hangs.
 };
 
 /// Runs one case in a process of its own.
