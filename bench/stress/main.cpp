@@ -14,6 +14,7 @@
 #include "bench/stress/case_log.h"
 #include "bench/stress/shrink.h"
 #include "bench/stress/summary.h"
+#include "bench/stress/trouble_tables.h"
 
 namespace sunder::stress {
 namespace {
@@ -23,7 +24,7 @@ struct Options {
   std::uint64_t first = 0;
   RunLimits limits;
   std::string log, known;
-  bool lists = false, summary = false;
+  bool lists = false, summary = false, tables = false;
 };
 
 /// @return whether the program should go on.
@@ -45,6 +46,8 @@ bool parse(int count, char** arguments, Options& options, int& exit_code) {
   app.add_option("--known", options.known,
                  "Runs only the cases of this file, with the steps that it names");
   app.add_flag("--list", options.lists, "Lists the families");
+  app.add_flag("--tables", options.tables,
+               "Prints errors and times against the size of the trouble, for docs/stability.md");
   app.add_flag("--summary", options.summary, "Ends with one JSON object");
   options.limits.workers = std::max(1u, std::thread::hardware_concurrency());
   try {
@@ -142,6 +145,10 @@ int run(int count, char** arguments) {
     for (const Family& family : families())
       std::printf("%-12s %s\n", std::string(family.name).c_str(),
                   std::string(family.subject).c_str());
+    return 0;
+  }
+  if (options.tables) {
+    print_trouble_tables();
     return 0;
   }
   return options.known.empty() ? run_new(options) : run_known(options);

@@ -1,0 +1,154 @@
+#include "bench/stress/trouble_tables.h"
+
+#include <sunder/skinning/pose.h>
+#include <sunder/tear/torn_weights.h>
+
+#include <array>
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "bench/measure.h"
+#include "bench/stress/torn_subject.h"
+#include "support/hard_operations.h"
+#include "support/random_operations.h"
+#include "support/rigs.h"
+#include "support/torn_invariants.h"
+
+namespace sunder::stress {
+namespace {
+
+using test::Random;
+
+/// A model, its operations and their times. Laws are checked when a row is printed.
+class Trial {
+ public:
+  explicit Trial(Character character)
+      : model_(*TornModel::create(std::make_shared<const Character>(std::move(character)))) {}
+
+  [[nodiscard]] const TornModel& model() const { return model_; }
+
+  void operate(const Operation& operation) {
+    bool is_done = false;
+    seconds_ += bench::seconds_of([&] { is_done = bool(test::play(model_, operation)); });
+    ++(is_done ? done_ : refused_);
+  }
+
+  void print_row(const std::string& trouble) const {
+    CaseReport report;
+    measure(model_, report);
+    const std::size_t broken = report.violations.size() + test::broken_laws(model_).size();
+    const ModelPose bind = *bind_pose(model_.source());
+    const auto errors = measure_weight_errors(model_, 0, kNone, {&bind, 1});
+    std::printf(
+        "| %s | %llu | %llu | %.1g | %.1g | %.1g | %.2g | %.3g | %zu |\n", trouble.c_str(),
+        static_cast<unsigned long long>(done_), static_cast<unsigned long long>(report.faces),
+        report.area_drift, report.weight_sum_error, errors ? errors->of_diagonal.maximum : -1.0,
+        report.smallest_angle, done_ > 0 ? 1e3 * seconds_ / static_cast<double>(done_) : 0, broken);
+    std::fflush(stdout);
+  }
+
+ private:
+  TornModel model_;
+  double seconds_ = 0;
+  std::uint64_t done_ = 0, refused_ = 0;
+};
+
+void print_head(const char* title, const char* trouble) {
+  std::printf(
+      "\n%s\n\n| %s | operations | faces | area drift | weight sums | posed error | angle p1 | ms "
+      "per operation | broken laws |\n|---|---|---|---|---|---|---|---|---|\n",
+      title, trouble);
+}
+
+std::string number(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.3g", value);
+  return text.data();
+}
+
+CutOperation random_cut(const Character& source, Random& random) {
+  const ModelPose pose = test::random_pose(source, random, 0.3);
+  const auto positions = test::posed_positions(source, 0, pose);
+  PlaneCut cut;
+  cut.point = positions[random.index(static_cast<std::uint32_t>(positions.size()))];
+  cut.normal = random.direction();
+  return {pose, cut};
+}
+
+TearOperation tear_on_a_side(const Character& source, const Vec3d& side, Random& random) {
+  TearOperation tear;
+  const ModelPose pose = test::random_pose(source, random, 0.3);
+  tear.pose = pose;
+  for (int tries = 0; tries < 50; ++tries) {
+    tear.stroke = test::random_stroke(source, pose, random, 0.1, 3);
+    if (tear.stroke[0].base.normalized().dot(side) > 0.9) break;
+  }
+  return tear;
+}
+
+template <class Make>
+void print_sequence(Character character, std::initializer_list<int> counts, Make make) {
+  Trial trial(std::move(character));
+  int done = 0;
+  for (const int count : counts) {
+    for (; done < count; ++done) trial.operate(make(trial.model().source()));
+    trial.print_row(std::to_string(count));
+  }
+}
+
+/// Twenty operations on a tube that was scaled and moved.
+void print_moved(double scale, double offset, const std::string& trouble) {
+  Random random(7);
+  Character tube = test::make_tube(12, 10, 3);
+  for (Vec3f& position : tube.meshes[0].positions)
+    position = (scale * (position.cast<double>() + Vec3d(offset, 0, 0))).cast<float>();
+  Trial trial(std::move(tube));
+  const ModelPose pose = *bind_pose(trial.model().source());
+  for (int i = 0; i < 20; ++i) {
+    CutOperation cut = random_cut(trial.model().source(), random);
+    const auto positions = test::posed_positions(trial.model().source(), 0, pose);
+    cut.cut.point = positions[random.index(static_cast<std::uint32_t>(positions.size()))];
+    cut.pose = pose;
+    trial.operate(cut);
+  }
+  trial.print_row(trouble);
+}
+
+/// Planes that pass a ring of vertices at a distance, one after another from both sides.
+void print_near_planes(double distance) {
+  Trial trial(test::make_tube(12, 10, 3));
+  const ModelPose pose = *bind_pose(trial.model().source());
+  const auto positions = test::posed_positions(trial.model().source(), 0, pose);
+  for (int i = 0; i < 20; ++i) {
+    CutOperation cut;
+    cut.pose = pose;
+    cut.cut.normal = Vec3d(0, 1, 0);
+    cut.cut.point = positions[static_cast<std::size_t>(10 + 5 * i)] +
+                    Vec3d(0, i % 2 == 0 ? distance : -distance, 0);
+    trial.operate(cut);
+  }
+  trial.print_row(number(distance));
+}
+
+}  // namespace
+
+void print_trouble_tables() {
+  print_head("**Successive cuts** of a tube, in random poses", "cuts");
+  Random random(1);
+  print_sequence(test::make_tube(12, 12, 4), {1, 3, 10, 30, 100, 300},
+                 [&](const Character& source) { return random_cut(source, random); });
+  print_head("**Tears of one region** of a ball of 6,966 faces, in random poses", "tears");
+  const Vec3d side = random.direction();
+  print_sequence(test::make_bumpy_ball(3485), {1, 10, 100, 300, 1000},
+                 [&](const Character& source) { return tear_on_a_side(source, side, random); });
+  print_head("**Scale**: twenty cuts of a tube of 3 m, scaled", "scale");
+  for (const double scale : {1e-4, 1e-2, 1.0, 1e2, 1e4}) print_moved(scale, 0, number(scale));
+  print_head("**Distance from the origin**: twenty cuts of a tube of 3 m", "metres");
+  for (const double offset : {0.0, 1e1, 1e2, 1e3, 1e4, 1e5}) print_moved(1, offset, number(offset));
+  print_head("**Planes next to vertices** of a tube of 3 m, at a distance", "metres");
+  for (const double distance : {1e-2, 1e-4, 1e-6, 1e-8, 1e-12, 1e-16, 0.0})
+    print_near_planes(distance);
+}
+
+}  // namespace sunder::stress
