@@ -6,7 +6,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "bench/cut_summary.h"
+#include "bench/cut_figures.h"
 #include "bench/long_stroke.h"
 #include "bench/measure.h"
 #include "bench/model_memory.h"

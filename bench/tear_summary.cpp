@@ -3,14 +3,14 @@
 #include <cstdio>
 #include <optional>
 
-#include "bench/capped_cuts.h"
-#include "bench/cut_summary.h"
+#include "bench/cut_figures.h"
 #include "bench/in_turns.h"
 #include "bench/json_object.h"
 #include "bench/measure.h"
 #include "bench/model_memory.h"
 #include "bench/repeated_operation.h"
 #include "bench/tear_stages.h"
+#include "bench/twenty_cuts.h"
 
 #if SUNDER_BENCH_CGAL
 #include "bench/cgal_peer.h"
@@ -118,20 +118,23 @@ double measure_first_tear() {
   }));
 }
 
-/// Adds the figures of cuts with caps.
-void add_capped_cuts(JsonObject& object) {
+/// Adds the figures of plane cuts.
+void add_cuts(const CutFigures& cuts, JsonObject& object) {
   constexpr double kMilliseconds = 1e3;
-  const CappedCuts cuts = measure_capped_cuts();
-  const auto add = [&](const char* name, const std::optional<Figures>& figures) {
-    if (figures)
-      object.add(name, by_size(*figures));
-    else
-      object.add(name, std::nullopt);
-  };
-  add("capped_cut_vs_vtk", cuts.vs_vtk);
-  add("filling_vs_vtk", cuts.filling_vs_vtk);
-  object.add("filling_ms", by_size(cuts.filling_seconds, kMilliseconds));
-  const TwentyCuts twenty = cut_twenty_times();
+  if (const auto plain = cuts.ratios_to_vtk(), capped = cuts.capped_ratios_to_vtk();
+      plain && capped) {
+    object.add("cut_vs_vtk", plain->back());
+    object.add("cut_vs_vtk_by_size", by_size(*plain));
+    object.add("capped_cut_vs_vtk", by_size(*capped));
+  } else {
+    object.add("cut_vs_vtk", std::nullopt);
+    object.add("capped_cut_vs_vtk", std::nullopt);
+  }
+  Figures filling_ms = {};
+  for (std::size_t i = 0; i < filling_ms.size(); ++i)
+    filling_ms[i] = kMilliseconds * (cuts.capped_seconds[i] - cuts.seconds[i]);
+  object.add("filling_ms", by_size(filling_ms));
+  const TwentyCuts twenty = worst_of_twenty_cuts();
   object.add("twenty_cuts_faces", static_cast<double>(twenty.faces));
   object.add("twenty_cuts_slowest_ms", twenty.slowest_seconds * kMilliseconds);
 }
@@ -179,13 +182,7 @@ void print_summary() {
   object.add("warm_us", by_size(warm_us));
   object.add("cold_us", by_size(cold_us));
   object.add("query_us_900k", query * kMicroseconds);
-  if (const auto ratios = cuts.ratios_to_vtk()) {
-    object.add("cut_vs_vtk", ratios->back());
-    object.add("cut_vs_vtk_by_size", by_size(*ratios));
-  } else {
-    object.add("cut_vs_vtk", std::nullopt);
-  }
-  add_capped_cuts(object);
+  add_cuts(cuts, object);
   object.add("faces_crossed", by_size(tears.faces_crossed));
   object.add("points", by_size(points));
   object.end();
