@@ -6,9 +6,12 @@ namespace sunder::bench {
 /// to stdout.
 void print_summary();
 
+/// `bench_tear --widths`: those figures of the summary that compare widths and bores with the tear.
+void print_removals();
+
 /// Explains the figures of the summary.
 inline constexpr const char* kSummaryHelp =
-    "bench_tear [--summary | --cuts] [options of Google Benchmark: --help]\n"
+    "bench_tear [--summary | --cuts | --widths] [options of Google Benchmark: --help]\n"
     "\n"
     "Without --summary: all benchmarks. Each time is a median of up to 300 runs; the last word of "
     "a name says how often each face "
@@ -53,6 +56,9 @@ inline constexpr const char* kSummaryHelp =
     "  faces_crossed, points by size\n"
     "\n"
     "--cuts prints one JSON object about plane cuts alone, by size: cut_vs_vtk, vtk_us, cut_us and "
-    "cut_and_undo_allocations.\n";
+    "cut_and_undo_allocations.\n"
+    "\n"
+    "--widths prints the figures of the summary that compare widths and bores with the plain "
+    "tear.\n";
 
 }  // namespace sunder::bench
