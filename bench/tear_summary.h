@@ -6,9 +6,12 @@ namespace sunder::bench {
 /// to stdout.
 void print_summary();
 
+/// `bench_tear --widths`: those figures of the summary that compare widths and bores with the tear.
+void print_removals();
+
 /// Explains the figures of the summary.
 inline constexpr const char* kSummaryHelp =
-    "bench_tear [--summary | --cuts] [options of Google Benchmark: --help]\n"
+    "bench_tear [--summary | --cuts | --widths] [options of Google Benchmark: --help]\n"
     "\n"
     "Without --summary: all benchmarks. Each time is a median of up to 300 runs; the last word of "
     "a name says how often each face "
@@ -53,6 +56,9 @@ inline constexpr const char* kSummaryHelp =
     "\n"
     "--cuts prints one JSON object about plane cuts alone, by size: cut_vs_vtk and "
     "capped_cut_vs_vtk, their\n"
-    "times in microseconds, and the allocations of a cut and its undo.\n";
+    "times in microseconds, and the allocations of a cut and its undo.\n"
+    "\n"
+    "--widths prints the figures of the summary that compare widths and bores with the plain "
+    "tear.\n";
 
 }  // namespace sunder::bench
