@@ -25,8 +25,7 @@ void add_operation_ratios(JsonObject& object) {
 #else
 
 void add_operation_ratios(JsonObject& object) {
-  for (const char* name :
-       {"width_vs_tear", "cut_vs_vtk", "cut_vs_vtk_900k", "capped_cut_vs_vtk"})
+  for (const char* name : {"width_vs_tear", "cut_vs_vtk", "cut_vs_vtk_900k", "capped_cut_vs_vtk"})
     object.add(name, std::nullopt);
 }
 
