@@ -21,7 +21,7 @@ void begin_change(Structure& structure) {
   tears.undone.clear();
   const std::shared_ptr<const PendingWork> pending = pending_work(structure);
   if (tears.waiting) resume_work(structure, pending, false);
-  structure.points.memberships.resize(structure.points.memberships_end);
+  structure.points.memberships.shrink(structure.points.memberships_end);
   Change& change = tears.done.emplace_back();
   change.points = structure.points.count();
   change.particles = static_cast<Index>(structure.particles.size());
