@@ -16,7 +16,8 @@ using sunder::bench::LoopMode;
 
 void print_stages(int argc, char** argv) {
   const auto vertices = argc > 2 ? std::strtoul(argv[2], nullptr, 10) : 13'380;
-  for (const LoopMode mode : {LoopMode::in_frame, LoopMode::in_background})
+  constexpr LoopMode kModes[] = {LoopMode::in_frame, LoopMode::in_background};
+  for (const LoopMode mode : kModes)
     sunder::bench::print_loop_stages(static_cast<std::uint32_t>(vertices), mode, 3);
 }
 

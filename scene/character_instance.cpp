@@ -218,7 +218,7 @@ Result<OperationJob> CharacterInstance::begin_operation(const Operation& operati
 Result<TearReport> CharacterInstance::swap_in(const OperationJob& job, ChangeRecord* change) {
   const MemoryScope scope(state_->memory);
   if (job.poll() == OperationJob::State::failed) {
-    state_->begun.reset();
+    state_->drop(job);
     return job.failure();
   }
   return state_->swap_in(job, change);

@@ -132,6 +132,12 @@ Result<OperationJob> CharacterInstance::State::begin_operation(const Operation& 
   return job;
 }
 
+void CharacterInstance::State::drop(const OperationJob& job) noexcept {
+  if (!begun || begun->job != job) return;
+  begun->prepared->cancel();
+  begun.reset();
+}
+
 Result<TearReport> CharacterInstance::State::swap_in(const OperationJob& job,
                                                      ChangeRecord* change) {
   if (!begun || begun->job != job)
@@ -143,7 +149,10 @@ Result<TearReport> CharacterInstance::State::swap_in(const OperationJob& job,
   if (!report) return report;
   const std::shared_ptr<scene::PreparedSwap> prepared = std::move(begun->prepared);
   begun.reset();
-  if (torn->model.newest_operation() == before) return report;  // it missed
+  if (torn->model.newest_operation() == before) {  // it missed
+    prepared->cancel();
+    return report;
+  }
   note({&record, 1});
   if (drawn) prepared->give(drawn->meshes);
   if (!torn->particles || prepared->give(*torn->particles, torn->model)) return report;

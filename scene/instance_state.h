@@ -61,6 +61,8 @@ struct CharacterInstance::State {
   /// Begins an operation on a replica, with what its swap_in() needs. @throws std::bad_alloc
   Result<OperationJob> begin_operation(const Operation& operation);
   Result<TearReport> swap_in(const OperationJob& job, ChangeRecord* change);
+  /// Drops what an operation prepared that failed.
+  void drop(const OperationJob& job) noexcept;
   Status set_palettes();
   Status update_mesh(Index mesh);
   /// How particles displace a mesh, without gradients.

@@ -57,7 +57,7 @@ void Scene::State::share_budget() {
   for (std::size_t i = 0; i < active.size(); ++i) {
     scene::Actor& actor = *slots[active[(stats.frame + i) % active.size()]].actor;
     actor.allowance = {};
-    if (actor.wants_settling()) {
+    if (actor.may_want_settling()) {
       actor.allowance.settled_points = std::min(kMostPoints, left.settled_points);
       left.settled_points -= actor.allowance.settled_points;
     }

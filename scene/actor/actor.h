@@ -70,6 +70,10 @@ class Actor {
 
   /// Whether there is optional work.
   [[nodiscard]] bool wants_settling() const { return is_visible_ && shown().needs_settling(); }
+  /// The same after the commands of an update.
+  [[nodiscard]] bool may_want_settling() const {
+    return wants_settling() || commands.has_waiting() || commands.background_count() > 0;
+  }
   [[nodiscard]] bool wants_model_work() const {
     return commands.has_refits() || levels_.is_changing() || may_pack();
   }

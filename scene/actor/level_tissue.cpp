@@ -71,10 +71,10 @@ void LevelTissue::give_to(CharacterInstance& instance, const ModelPose& pose) co
   std::vector<PointMotion> of_particles;
   for (const Vec3d& place : rest_places(particles, pose)) of_particles.push_back(at(place));
   if (of_particles.size() != particles.particle_count()) return;
-  std::vector<PointMotion> motions(particles.point_count());
-  for (std::size_t point = 0; point < motions.size(); ++point) {
+  std::vector<PointMotion> of_points(particles.point_count());
+  for (std::size_t point = 0; point < of_points.size(); ++point) {
     const ParticleInfluences& of = particles.influences()[point];
-    PointMotion& motion = motions[point];
+    PointMotion& motion = of_points[point];
     motion.is_known = of.weights[0] > 0;
     if (motion.is_known) motion.material = of_particles[of.particles[0]].material;
     for (std::size_t k = 0; k < 4 && of.weights[k] > 0; ++k) {
@@ -82,7 +82,7 @@ void LevelTissue::give_to(CharacterInstance& instance, const ModelPose& pose) co
       motion.velocity += double{of.weights[k]} * of_particles[of.particles[k]].velocity;
     }
   }
-  (void)body->inherit_motion_from(motions);
+  (void)body->inherit_motion_from(of_points);
 }
 
 }  // namespace sunder::scene

@@ -29,6 +29,8 @@ class PreparedSwap {
 
   /// Lets particles follow the operation. @return false if they were not prepared.
   [[nodiscard]] bool give(ParticleSet& particles, const TornModel& model);
+  /// Nothing will be given: particles settle again.
+  void cancel() noexcept { fork_.reset(); }
   /// Gives meshes what they would make of the changes that they have noted.
   void give(std::span<InstanceMesh> meshes) noexcept;
 

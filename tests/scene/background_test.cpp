@@ -51,7 +51,13 @@ class HeldBackground {
   std::deque<std::function<void()>> tasks_;
 };
 
-Scene make_scene(const SceneOptions& options) { return value_of(Scene::create(options)); }
+Scene make_scene(const BackgroundHook& hook, std::uint32_t updates = 0, std::uint32_t threads = 1) {
+  SceneOptions options;
+  options.threads = threads;
+  options.background = hook;
+  options.background_updates = updates;
+  return value_of(Scene::create(options));
+}
 
 InstanceId spawn(Scene& scene, const std::shared_ptr<const CharacterAsset>& asset) {
   const InstanceId id = value_of(scene.spawn(asset));
@@ -84,8 +90,8 @@ void expect_same(Scene& a, InstanceId of_a, Scene& b, InstanceId of_b) {
 TEST(background, a_swap_leaves_what_a_call_in_its_frame_leaves) {
   constexpr std::uint32_t kUpdates = 4;
   const auto asset = soft_tube();
-  Scene swapped = make_scene({.threads = 1, .background_updates = kUpdates});
-  Scene called = make_scene({.threads = 1});
+  Scene swapped = make_scene({}, kUpdates);
+  Scene called = make_scene({});
   const InstanceId in_swapped = spawn(swapped, asset), in_called = spawn(called, asset);
   for (const auto& [scene, id] : {std::pair(&swapped, in_swapped), std::pair(&called, in_called)}) {
     ASSERT_TRUE(scene->submit(id, capped_cut(1.0)));
@@ -121,7 +127,7 @@ TEST(background, a_swap_leaves_what_a_call_in_its_frame_leaves) {
 TEST(background, strokes_do_not_wait) {
   HeldBackground background;
   const auto asset = soft_tube();
-  Scene scene = make_scene({.threads = 1, .background = background.hook()});
+  Scene scene = make_scene(background.hook());
   const InstanceId id = spawn(scene, asset);
   ASSERT_TRUE(scene.update(kFrame));
   ASSERT_TRUE(scene.submit(id, capped_cut(2.2), {.in_background = true}));
@@ -196,12 +202,8 @@ TEST(background, results_do_not_depend_on_its_speed_after_a_fixed_number_of_upda
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     SCOPED_TRACE(seed);
     HeldBackground never, at_once;
-    SceneOptions slow = {.threads = 1, .background = never.hook(), .background_updates = 3},
-                 fast = slow, own = slow;
-    fast.background = at_once.hook();
-    own.background = {};
-    own.threads = 2;
-    Scene one = make_scene(slow), other = make_scene(fast), third = make_scene(own);
+    Scene one = make_scene(never.hook(), 3), other = make_scene(at_once.hook(), 3),
+          third = make_scene({}, 3, 2);
     const InstanceId in_one = spawn(one, asset), in_other = spawn(other, asset),
                      in_third = spawn(third, asset);
     ASSERT_NO_FATAL_FAILURE(play_randomly(one, in_one, seed, [] {}));
@@ -216,7 +218,7 @@ TEST(background, results_do_not_depend_on_its_speed_after_a_fixed_number_of_upda
 
 TEST(background, a_failure_lets_tissue_settle_again) {
   HeldBackground background;
-  Scene scene = make_scene({.threads = 1, .background = background.hook()});
+  Scene scene = make_scene(background.hook());
   const InstanceId id = spawn(scene, soft_tube());
   ASSERT_TRUE(scene.submit(id, capped_cut(1.5)));
   ASSERT_TRUE(scene.update(kFrame));
@@ -252,7 +254,7 @@ Vec3d mean_of(std::span<const Vec3f> places) {
 TEST(background, a_coarser_level_starts_from_the_motion_of_the_finest) {
   const auto coarse = soft_tube(16, 10, nullptr), fine = soft_tube(30, 16, coarse);
   HeldBackground background;
-  Scene scene = make_scene({.threads = 1, .background = background.hook()});
+  Scene scene = make_scene(background.hook());
   const InstanceId moving = value_of(scene.spawn(fine)), still = value_of(scene.spawn(coarse));
   ASSERT_TRUE(scene.find(moving)->prepare_to_tear());
   ASSERT_TRUE(scene.update(kFrame));

@@ -134,15 +134,18 @@ TEST(memory_scope, a_scene_returns_all_of_it) {
     const Character& source = *asset->character();
     for (int frame = 0; frame < 40; ++frame) {
       const InstanceId id = ids[random.index(3)];
-      if (frame % 4 == 0)
-        ASSERT_TRUE(scene->submit(id, capped_cut(source, random.uniform(0.2, 0.8)),
-                                  {.in_background = random.index(2) == 0}));
+      if (frame % 4 == 0) {
+        const PlaneCut cut = capped_cut(source, random.uniform(0.2, 0.8));
+        ASSERT_TRUE(scene->submit(id, cut, {.in_background = random.index(2) == 0}));
+      }
       if (frame % 4 == 1) {
         TearCommand tear;
         tear.stroke = test::random_stroke(source, *rest_pose(source), random, 0.3, 3);
         ASSERT_TRUE(scene->submit(id, tear, {.wants_changes = true}));
       }
-      if (frame % 8 == 6) ASSERT_TRUE(scene->submit(id, UndoCommand{}));
+      if (frame % 8 == 6) {
+        ASSERT_TRUE(scene->submit(id, UndoCommand{}));
+      }
       ASSERT_TRUE(scene->set_pose(id, test::random_pose(source, random, 0.2)));
       ASSERT_TRUE(scene->update(kFrame));
       (void)scene->mesh(id, 0);
