@@ -6,7 +6,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "bench/cut_summary.h"
+#include "bench/cut_figures.h"
 #include "bench/long_stroke.h"
 #include "bench/measure.h"
 #include "bench/model_memory.h"
@@ -247,15 +247,19 @@ int main(int argc, char** argv) {
     sunder::bench::print_summary();
     return 0;
   }
+  if (argc == 2 && std::strcmp(argv[1], "--widths") == 0) {
+    sunder::bench::print_removals();
+    return 0;
+  }
   if (argc == 2 && std::strcmp(argv[1], "--cuts") == 0) {
     sunder::bench::print_cut_summary();
     return 0;
   }
   benchmark::Initialize(&argc, argv, print_help);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) {
-    std::fprintf(
-        stderr,
-        "bench_tear takes --summary or --cuts alone, or options of Google Benchmark; see --help\n");
+    std::fprintf(stderr,
+                 "bench_tear takes --summary, --cuts or --widths alone, or options of Google "
+                 "Benchmark; see --help\n");
     return 2;
   }
   benchmark::RunSpecifiedBenchmarks();

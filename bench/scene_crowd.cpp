@@ -13,9 +13,10 @@ namespace {
 
 constexpr double kFrame = 1.0 / 90;
 
-Scene make_scene(std::uint32_t threads) {
+Scene make_scene(const Crowd::Options& of) {
   SceneOptions options;
-  options.threads = threads;
+  options.threads = of.threads;
+  options.background_updates = of.background_updates;
   auto scene = Scene::create(options);
   require(scene.error(), "scene");
   return std::move(*scene);
@@ -79,7 +80,8 @@ Crowd::Crowd(std::shared_ptr<const Character> character, std::uint32_t count,
              const Options& options)
     : character_(std::move(character)),
       asset_(make_asset(character_, options.is_soft)),
-      scene_(make_scene(options.threads)) {
+      scene_(make_scene(options)),
+      is_background_used_(options.background_updates > 0) {
   for (std::uint32_t i = 0; i < count; ++i) {
     const auto id = scene_.spawn(asset_);
     require(id.error(), "spawn");
@@ -101,8 +103,10 @@ Blade Crowd::blade_at(double across, double height) const {
   return {inside + Vec3d(0, 0, size.z()), inside};
 }
 
-void Crowd::submit(std::uint32_t instance, SceneCommand command) {
-  require(scene_.submit(ids_[instance], std::move(command)).error(), "submit");
+void Crowd::submit(std::uint32_t instance, SceneCommand command, bool in_background) {
+  CommandOptions options;
+  options.in_background = in_background;
+  require(scene_.submit(ids_[instance], std::move(command), options).error(), "submit");
 }
 
 void Crowd::tear(std::uint32_t instance, double height, const TearOptions& options) {
@@ -114,7 +118,7 @@ void Crowd::cut(std::uint32_t instance, double height) {
   cut.point = blade_at(0, height).tip;
   cut.normal = {0.1, 1, 0.2};
   cut.caps = true;
-  submit(instance, cut);
+  submit(instance, cut, is_background_used_);
 }
 
 void Crowd::drill(std::uint32_t instance, double height) {
@@ -125,7 +129,7 @@ void Crowd::drill(std::uint32_t instance, double height) {
   bore.radius = 0.08 * bounds_.sizes().norm();
   bore.depth = bore.direction.norm();
   bore.wall = true;
-  submit(instance, bore);
+  submit(instance, bore, is_background_used_);
 }
 
 void Crowd::undo(std::uint32_t instance) { submit(instance, UndoCommand{}); }

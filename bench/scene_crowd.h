@@ -18,6 +18,9 @@ class Crowd {
   struct Options {
     bool is_soft = false;
     std::uint32_t threads = 1;
+    /// Cuts with caps and bores with a wall run in the background and take effect so many updates
+    /// later; 0: in the frame.
+    std::uint32_t background_updates = 0;
   };
   Crowd(std::shared_ptr<const Character> character, std::uint32_t count, const Options& options);
 
@@ -40,11 +43,12 @@ class Crowd {
 
  private:
   [[nodiscard]] Blade blade_at(double across, double height) const;
-  void submit(std::uint32_t instance, SceneCommand command);
+  void submit(std::uint32_t instance, SceneCommand command, bool in_background = false);
 
   std::shared_ptr<const Character> character_;
   std::shared_ptr<const CharacterAsset> asset_;
   Scene scene_;
+  bool is_background_used_;
   std::vector<InstanceId> ids_;
   Eigen::AlignedBox3d bounds_;  ///< At rest.
 };

@@ -3,14 +3,15 @@
 #include <cstdio>
 #include <optional>
 
-#include "bench/capped_cuts.h"
-#include "bench/cut_summary.h"
+#include "bench/cut_figures.h"
 #include "bench/in_turns.h"
 #include "bench/json_object.h"
 #include "bench/measure.h"
 #include "bench/model_memory.h"
+#include "bench/removal_times.h"
 #include "bench/repeated_operation.h"
 #include "bench/tear_stages.h"
+#include "bench/twenty_cuts.h"
 
 #if SUNDER_BENCH_CGAL
 #include "bench/cgal_peer.h"
@@ -69,39 +70,25 @@ Tears measure_tears() {
   return result;
 }
 
-/// Removals of surface, by size.
-struct Removals {
-  /// Time by that of the plain tear of the same stroke.
+/// Adds the figures of widths and bores.
+void add_removals(JsonObject& object) {
   Figures width = {}, bore = {}, walled_bore = {};
-  double allocations = 0, undo_allocations = 0;  ///< Of the width and the bore, the most.
-};
-
-Removals measure_removals() {
-  Removals result;
+  double worst = 0, allocations = 0, undo_allocations = 0;
   for (std::size_t i = 0; i < kDivisions.size(); ++i) {
-    const Scene& scene = scene_of(kDivisions[i]);
-    std::vector<RepeatedOperation> operations = {{scene, tear_along_stroke},
-                                                 {scene, tear_with_width},
-                                                 {scene, drill_open},
-                                                 {scene, drill_through}};
-    std::vector<Candidate> candidates;
-    for (RepeatedOperation& operation : operations)
-      candidates.push_back({[&operation] { return operation.run(); }, {30, 0.5, 2}});
-    measure_in_turns(candidates);
-    const auto by_tear = [&](std::size_t candidate) {
-      return median(candidates[candidate].seconds) / median(candidates[0].seconds);
-    };
-    result.width[i] = by_tear(1);
-    result.bore[i] = by_tear(2);
-    result.walled_bore[i] = by_tear(3);
-    for (const std::size_t of : {1, 2}) {
-      result.allocations =
-          std::max(result.allocations, static_cast<double>(operations[of].allocations));
-      result.undo_allocations =
-          std::max(result.undo_allocations, static_cast<double>(operations[of].undo_allocations));
-    }
+    const RemovalTimes times = measure_removals(scene_of(kDivisions[i]));
+    width[i] = times.width;
+    bore[i] = times.bore;
+    walled_bore[i] = times.walled_bore;
+    worst = std::max({worst, times.width, times.bore});
+    allocations = std::max(allocations, times.allocations);
+    undo_allocations = std::max(undo_allocations, times.undo_allocations);
   }
-  return result;
+  object.add("width_vs_tear", worst);
+  object.add("width_vs_tear_by_size", by_size(width));
+  object.add("bore_vs_tear_by_size", by_size(bore));
+  object.add("walled_bore_vs_tear_by_size", by_size(walled_bore));
+  object.add("width_allocations", allocations);
+  object.add("width_undo_allocations", undo_allocations);
 }
 
 /// Seconds of the entry query at the largest size.
@@ -118,30 +105,38 @@ double measure_first_tear() {
   }));
 }
 
-/// Adds the figures of cuts with caps.
-void add_capped_cuts(JsonObject& object) {
+/// Adds the figures of plane cuts.
+void add_cuts(const CutFigures& cuts, JsonObject& object) {
   constexpr double kMilliseconds = 1e3;
-  const CappedCuts cuts = measure_capped_cuts();
-  const auto add = [&](const char* name, const std::optional<Figures>& figures) {
-    if (figures)
-      object.add(name, by_size(*figures));
-    else
-      object.add(name, std::nullopt);
-  };
-  add("capped_cut_vs_vtk", cuts.vs_vtk);
-  add("filling_vs_vtk", cuts.filling_vs_vtk);
-  object.add("filling_ms", by_size(cuts.filling_seconds, kMilliseconds));
-  const TwentyCuts twenty = cut_twenty_times();
+  if (const auto plain = cuts.ratios_to_vtk(), capped = cuts.capped_ratios_to_vtk();
+      plain && capped) {
+    object.add("cut_vs_vtk", plain->back());
+    object.add("cut_vs_vtk_by_size", by_size(*plain));
+    object.add("capped_cut_vs_vtk", by_size(*capped));
+  } else {
+    object.add("cut_vs_vtk", std::nullopt);
+    object.add("capped_cut_vs_vtk", std::nullopt);
+  }
+  Figures filling_ms = {};
+  for (std::size_t i = 0; i < filling_ms.size(); ++i)
+    filling_ms[i] = kMilliseconds * (cuts.capped_seconds[i] - cuts.seconds[i]);
+  object.add("filling_ms", by_size(filling_ms));
+  const TwentyCuts twenty = worst_of_twenty_cuts();
   object.add("twenty_cuts_faces", static_cast<double>(twenty.faces));
   object.add("twenty_cuts_slowest_ms", twenty.slowest_seconds * kMilliseconds);
 }
 
 }  // namespace
 
+void print_removals() {
+  JsonObject object;
+  add_removals(object);
+  object.end();
+}
+
 void print_summary() {
   const BytesPerPoint bytes = bytes_per_point(scene_of(kLargest));
   const Tears tears = measure_tears();
-  const Removals removals = measure_removals();
   const auto worst = [](const Figures& figures) {
     return *std::max_element(figures.begin(), figures.end());
   };
@@ -170,22 +165,11 @@ void print_summary() {
   object.add("posed_bytes_per_point", bytes.posed_points);
   object.add("warm_allocations", worst(tears.allocations));
   object.add("warm_undo_allocations", worst(tears.undo_allocations));
-  object.add("width_vs_tear", std::max(worst(removals.width), worst(removals.bore)));
-  object.add("width_vs_tear_by_size", by_size(removals.width));
-  object.add("bore_vs_tear_by_size", by_size(removals.bore));
-  object.add("walled_bore_vs_tear_by_size", by_size(removals.walled_bore));
-  object.add("width_allocations", removals.allocations);
-  object.add("width_undo_allocations", removals.undo_allocations);
+  add_removals(object);
   object.add("warm_us", by_size(warm_us));
   object.add("cold_us", by_size(cold_us));
   object.add("query_us_900k", query * kMicroseconds);
-  if (const auto ratios = cuts.ratios_to_vtk()) {
-    object.add("cut_vs_vtk", ratios->back());
-    object.add("cut_vs_vtk_by_size", by_size(*ratios));
-  } else {
-    object.add("cut_vs_vtk", std::nullopt);
-  }
-  add_capped_cuts(object);
+  add_cuts(cuts, object);
   object.add("faces_crossed", by_size(tears.faces_crossed));
   object.add("points", by_size(points));
   object.end();

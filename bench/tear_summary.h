@@ -6,9 +6,12 @@ namespace sunder::bench {
 /// to stdout.
 void print_summary();
 
+/// `bench_tear --widths`: those figures of the summary that compare widths and bores with the tear.
+void print_removals();
+
 /// Explains the figures of the summary.
 inline constexpr const char* kSummaryHelp =
-    "bench_tear [--summary | --cuts] [options of Google Benchmark: --help]\n"
+    "bench_tear [--summary | --cuts | --widths] [options of Google Benchmark: --help]\n"
     "\n"
     "Without --summary: all benchmarks. Each time is a median of up to 300 runs; the last word of "
     "a name says how often each face "
@@ -45,14 +48,17 @@ inline constexpr const char* kSummaryHelp =
     "                        keeps one side; at 892 thousand points; null without VTK\n"
     "  cut_vs_vtk_by_size    the same at each size; absent without VTK\n"
     "  capped_cut_vs_vtk     the same with caps, by size\n"
-    "  filling_vs_vtk, filling_ms\n"
-    "                        the share of the caps: time with them minus that without them\n"
+    "  filling_ms            the share of the caps: time with them minus that without them\n"
     "  twenty_cuts_faces, twenty_cuts_slowest_ms\n"
-    "                        after twenty cuts with caps across a tube of 7,344 faces, and the "
-    "slowest of them\n"
+    "                        after twenty cuts with caps across a tube of 7,344 faces, the most "
+    "of twelve seeds, and the slowest cut\n"
     "  faces_crossed, points by size\n"
     "\n"
-    "--cuts prints one JSON object about plane cuts alone, by size: cut_vs_vtk, vtk_us, cut_us and "
-    "cut_and_undo_allocations.\n";
+    "--cuts prints one JSON object about plane cuts alone, by size: cut_vs_vtk and "
+    "capped_cut_vs_vtk, their\n"
+    "times in microseconds, and the allocations of a cut and its undo.\n"
+    "\n"
+    "--widths prints the figures of the summary that compare widths and bores with the plain "
+    "tear.\n";
 
 }  // namespace sunder::bench

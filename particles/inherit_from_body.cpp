@@ -44,32 +44,56 @@ std::vector<Moved> fit(std::span<const std::pair<ParticleInfluences, Moved>> wan
   return found;
 }
 
-/// The points of the map with their motion by the other body.
-std::vector<std::pair<ParticleInfluences, Moved>> motion_of_points(
-    const BodyState& to, const BodyState& other, std::span<const std::uint32_t> point_of_other) {
-  std::vector<Moved> of_particles(other.motion.count());
-  for (Index p = 0; p < other.motion.count(); ++p)
-    of_particles[p] << other.motion.displacements[p], other.motion.velocities[p];
-  std::vector<std::pair<ParticleInfluences, Moved>> wanted;
-  wanted.reserve(point_of_other.size());
-  for (Index point = 0; point < point_of_other.size(); ++point)
-    if (const Index of = point_of_other[point]; of != kNone)
-      wanted.emplace_back(to.set->influences()[point],
-                          moved_by(other.set->influences()[of], of_particles));
-  return wanted;
-}
-
 /// Each particle gets the material of its seed there.
-void inherit_materials(BodyState& to, const BodyState& other,
-                       std::span<const std::uint32_t> point_of_other) {
+void inherit_materials(BodyState& to, std::span<const PointMotion> motions) {
   for (Index p = 0; p < to.motion.count(); ++p) {
-    const Index of = point_of_other[to.set->seed(p)];
-    if (of == kNone || !(other.set->influences()[of].weights[0] > 0)) continue;
-    const Index material = other.motion.material_of[other.set->influences()[of].particles[0]];
-    if (material >= to.materials.size() || to.motion.material_of[p] == material) continue;
-    to.motion.material_of[p] = material;
+    const PointMotion& of = motions[to.set->seed(p)];
+    if (!of.is_known || of.material >= to.materials.size() ||
+        to.motion.material_of[p] == of.material)
+      continue;
+    to.motion.material_of[p] = of.material;
     to.graph.is_stale = true;
   }
+}
+
+/// @throws std::bad_alloc
+void inherit(BodyState& to, std::span<const PointMotion> motions) {
+  to.follow_particles();
+  std::vector<std::pair<ParticleInfluences, Moved>> wanted;
+  wanted.reserve(motions.size());
+  for (Index point = 0; point < motions.size(); ++point) {
+    if (!motions[point].is_known) continue;
+    Moved moved;
+    moved << motions[point].displacement, motions[point].velocity;
+    wanted.emplace_back(to.set->influences()[point], moved);
+  }
+  const std::vector<Moved> found = fit(wanted, to.motion.count());
+  inherit_materials(to, motions);
+  for (Index p = 0; p < to.motion.count(); ++p) {
+    if (found[p] == Moved::Zero()) continue;
+    to.motion.displacements[p] = to.motion.starts[p] = found[p].head<3>();
+    to.motion.velocities[p] = found[p].tail<3>();
+    to.wake_around(p);
+  }
+  to.show();
+}
+
+/// The motion at a point by the particles of a body.
+PointMotion motion_at(const BodyState& of, Index point) {
+  const ParticleInfluences& influences = of.set->influences()[point];
+  PointMotion motion;
+  motion.is_known = influences.weights[0] > 0;
+  if (!motion.is_known) return motion;
+  motion.material = of.motion.material_of[influences.particles[0]];
+  for_each_influence(influences, [&](Index p, double weight) {
+    motion.displacement += weight * of.motion.displacements[p];
+    motion.velocity += weight * of.motion.velocities[p];
+  });
+  return motion;
+}
+
+Status out_of_memory() {
+  return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
 }
 
 Status check_map(const BodyState& to, const BodyState& other,
@@ -97,21 +121,38 @@ Status SoftBody::inherit_motion_from(const SoftBody& other,
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "the other body has not followed its particles yet; step it first");
   try {
-    to.follow_particles();
-    const auto wanted = motion_of_points(to, from, point_of_other);
-    const std::vector<Moved> found = fit(wanted, to.motion.count());
-    inherit_materials(to, from, point_of_other);
-    for (Index p = 0; p < to.motion.count(); ++p) {
-      if (found[p] == Moved::Zero()) continue;
-      to.motion.displacements[p] = to.motion.starts[p] = found[p].head<3>();
-      to.motion.velocities[p] = found[p].tail<3>();
-      to.wake_around(p);
-    }
-    to.show();
+    std::vector<PointMotion> motions(point_of_other.size());
+    for (Index point = 0; point < motions.size(); ++point)
+      if (point_of_other[point] != kNone) motions[point] = motion_at(from, point_of_other[point]);
+    inherit(to, motions);
     return {};
   } catch (const std::bad_alloc&) {
-    return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
+    return out_of_memory();
   }
+}
+
+Status SoftBody::inherit_motion_from(std::span<const PointMotion> motions) {
+  BodyState& to = *state_;
+  if (motions.size() != to.set->point_count())
+    return Status::failure(StatusCode::size_mismatch, kNone,
+                           "there are %zu motions; the particles have %u points", motions.size(),
+                           to.set->point_count());
+  for (Index point = 0; point < motions.size(); ++point)
+    if (!motions[point].displacement.allFinite() || !motions[point].velocity.allFinite())
+      return Status::failure(StatusCode::non_finite_value, point,
+                             "the motion of point %u is not finite", point);
+  try {
+    inherit(to, motions);
+    return {};
+  } catch (const std::bad_alloc&) {
+    return out_of_memory();
+  }
+}
+
+PointMotion SoftBody::motion_of(std::uint32_t point) const {
+  SUNDER_ASSERT(point < state_->set->point_count());
+  if (state_->set->revision() != state_->revision) return {};
+  return motion_at(*state_, point);
 }
 
 }  // namespace sunder

@@ -192,6 +192,7 @@ Status ParticleSet::follow(const TornModel& model, std::span<const ChangeRecord>
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "memory ran out in an earlier call; create a new ParticleSet");
   if (!data_->own && is_untouched(model, changes)) return {};
+  data_->end_fork();
   try {
     Structure& structure = data_->to_change();
     structure.dirty.clear();
@@ -205,11 +206,23 @@ Status ParticleSet::follow(const TornModel& model, std::span<const ChangeRecord>
   return {};
 }
 
+Status ParticleSet::prepare_to_follow() {
+  if (data_->own) return {};
+  try {
+    data_->end_fork();
+    (void)data_->to_change();
+    return {};
+  } catch (const std::bad_alloc&) {
+    return out_of_memory();
+  }
+}
+
 bool ParticleSet::settle(const TornModel& model, std::uint32_t points) {
   if (!data_->own) return false;
   Structure& structure = *data_->own;
   particles::TearLog& tears = structure.tears;
   if (!tears.band || is_broken() || &model.source() != structure.character.source) return false;
+  if (!data_->fork.expired()) return true;
   structure.dirty.clear();
   try {
     particles::settle_band(model, structure, std::max(1u, points));

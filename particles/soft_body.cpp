@@ -281,7 +281,8 @@ std::span<const Collider> SoftBody::colliders() const { return state_->contact.c
 
 // ---- Motion.
 
-Status SoftBody::step(const TornModel& model, const ModelPose& pose, double seconds) {
+Status SoftBody::step(const TornModel& model, const ModelPose& pose, double seconds,
+                      std::uint32_t settled_points) {
   if (!std::isfinite(seconds))
     return Status::failure(StatusCode::non_finite_value, kNone, "the time step is not finite");
   if (seconds < 0)
@@ -304,7 +305,7 @@ Status SoftBody::step(const TornModel& model, const ModelPose& pose, double seco
   if (is_posed)
     if (Status status = state.set->rest(pose, {}, {}); !status) return status;
   try {
-    (void)state.set->settle(model);
+    if (settled_points > 0) (void)state.set->settle(model, settled_points);
     state.follow_particles();
     state.step(model, pose, is_posed, seconds);
   } catch (const std::bad_alloc&) {

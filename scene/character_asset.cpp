@@ -1,3 +1,4 @@
+#include <sunder/core/memory_scope.h>
 #include <sunder/scene/character_asset.h>
 #include <sunder/skinning/pose.h>
 
@@ -68,6 +69,7 @@ CharacterAsset::~CharacterAsset() = default;
 Result<std::shared_ptr<const CharacterAsset>> CharacterAsset::create(
     std::shared_ptr<const Character> character, const CharacterAssetOptions& options) {
   if (!character) return Status::failure(StatusCode::empty_input, kNone, "there is no character");
+  const MemoryScope scope(options.memory != nullptr ? options.memory : MemoryScope::current());
   try {
     auto torn = TornAsset::create(character);
     if (!torn) return torn.error();

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "scene/actor/check_pose.h"
+#include "scene/actor/piece_tissue.h"
 #include "scene/instance_state.h"
 
 namespace sunder {
@@ -62,14 +63,21 @@ Result<CharacterInstance> CharacterInstance::create(std::shared_ptr<const Charac
   return create(std::move(*asset), capacity);
 }
 
-Status CharacterInstance::prepare_to_tear() { return state_->require_torn(); }
+Status CharacterInstance::prepare_to_tear() {
+  const MemoryScope scope(state_->memory);
+  return state_->prepare_to_tear();
+}
 
-Status CharacterInstance::pack() { return state_->torn ? state_->torn->model.pack() : Status(); }
+Status CharacterInstance::pack() {
+  const MemoryScope scope(state_->memory);
+  return state_->torn ? state_->torn->model.pack() : Status();
+}
 
 // ---- Operations.
 
 Result<TearReport> CharacterInstance::tear(const ModelPose& pose, std::span<const Blade> stroke,
                                            const TearOptions& options, ChangeRecord* change) {
+  const MemoryScope scope(state_->memory);
   return state_->change(change, [&](ChangeRecord* record) {
     return state_->torn->model.tear(pose, stroke, options, record);
   });
@@ -77,36 +85,57 @@ Result<TearReport> CharacterInstance::tear(const ModelPose& pose, std::span<cons
 
 Result<TearReport> CharacterInstance::cut(const ModelPose& pose, const PlaneCut& cut,
                                           ChangeRecord* change) {
+  const MemoryScope scope(state_->memory);
   return state_->change(
       change, [&](ChangeRecord* record) { return state_->torn->model.cut(pose, cut, record); });
 }
 
 Result<TearReport> CharacterInstance::drill(const ModelPose& pose, const Bore& bore,
                                             ChangeRecord* change) {
+  const MemoryScope scope(state_->memory);
   return state_->change(
       change, [&](ChangeRecord* record) { return state_->torn->model.drill(pose, bore, record); });
 }
 
 Result<DetachedPiece> CharacterInstance::detach(const ModelPose& pose, const PiecePlace& place,
-                                                const DetachOptions& options,
-                                                ChangeRecord* change) {
+                                                const DetachOptions& options, ChangeRecord* change,
+                                                PieceTissue* tissue) {
+  const MemoryScope scope(state_->memory);
   return state_->change(change, [&](ChangeRecord* record) {
-    return sunder::detach(state_->torn->model, pose, place, options, record);
+    Result<DetachedPiece> piece = sunder::detach(state_->torn->model, pose, place, options, record);
+    if (piece && tissue != nullptr) state_->keep_tissue(*piece, *tissue);
+    return piece;
   });
 }
 
+Status CharacterInstance::inherit_motion(const DetachedPiece& piece, const PieceTissue& tissue) {
+  const MemoryScope scope(state_->memory);
+  if (Status status = state_->require_torn(); !status) return status;
+  if (body() == nullptr)
+    return Status::failure(StatusCode::invalid_argument, kNone, "the instance has no soft body");
+  try {
+    state_->needs_draw = true;
+    return body()->inherit_motion_from(scene::motions_of(piece, tissue, character(), *particles()));
+  } catch (const std::bad_alloc&) {
+    return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
+  }
+}
+
 Status CharacterInstance::undo(ChangeRecord* change) {
+  const MemoryScope scope(state_->memory);
   return state_->change(change,
                         [&](ChangeRecord* record) { return state_->torn->model.undo(record); });
 }
 
 Status CharacterInstance::redo(ChangeRecord* change) {
+  const MemoryScope scope(state_->memory);
   return state_->change(change,
                         [&](ChangeRecord* record) { return state_->torn->model.redo(record); });
 }
 
 Result<TearReport> CharacterInstance::apply(const Operation& operation,
                                             std::vector<ChangeRecord>* changes) {
+  const MemoryScope scope(state_->memory);
   const auto play = [&](std::vector<ChangeRecord>* records) {
     return apply_operation(state_->torn->model, operation, records);
   };
@@ -116,6 +145,7 @@ Result<TearReport> CharacterInstance::apply(const Operation& operation,
 
 Status CharacterInstance::begin_stroke(const ModelPose& pose, const Blade& blade,
                                        const TearOptions& options, const StrokeSampling& sampling) {
+  const MemoryScope scope(state_->memory);
   if (Status status = state_->require_torn(); !status) return status;
   Result<TearStroke> begun =
       TearStroke::create(state_->torn->model, pose, blade, options, sampling);
@@ -126,6 +156,7 @@ Status CharacterInstance::begin_stroke(const ModelPose& pose, const Blade& blade
 
 Result<TearReport> CharacterInstance::extend_stroke(const ModelPose& pose, const Blade& blade,
                                                     double seconds, ChangeRecord* change) {
+  const MemoryScope scope(state_->memory);
   if (!is_in_stroke()) return no_stroke();
   return state_->change(change, [&](ChangeRecord* record) {
     return state_->torn->stroke->extend(pose, blade, seconds, record);
@@ -133,6 +164,7 @@ Result<TearReport> CharacterInstance::extend_stroke(const ModelPose& pose, const
 }
 
 Result<TearReport> CharacterInstance::end_stroke(ChangeRecord* change) {
+  const MemoryScope scope(state_->memory);
   if (!is_in_stroke()) return no_stroke();
   Result<TearReport> report = state_->change(
       change, [&](ChangeRecord* record) { return state_->torn->stroke->end(record); });
@@ -141,6 +173,7 @@ Result<TearReport> CharacterInstance::end_stroke(ChangeRecord* change) {
 }
 
 Status CharacterInstance::cancel_stroke(ChangeRecord* change) {
+  const MemoryScope scope(state_->memory);
   if (!is_in_stroke()) return no_stroke();
   Status status = state_->change(
       change, [&](ChangeRecord* record) { return state_->torn->stroke->cancel(record); });
@@ -150,6 +183,7 @@ Status CharacterInstance::cancel_stroke(ChangeRecord* change) {
 
 Result<ForceTearingReport> CharacterInstance::tear_overstretched(
     const ForceTearingOptions& options, std::vector<ChangeRecord>* changes) {
+  const MemoryScope scope(state_->memory);
   State& state = *state_;
   if (!body())
     return Status::failure(StatusCode::invalid_argument, kNone, "the instance has no soft body");
@@ -167,26 +201,37 @@ Result<ForceTearingReport> CharacterInstance::tear_overstretched(
 }
 
 Result<RefitJob> CharacterInstance::begin_refit(const WeightsOperation& wanted) {
+  const MemoryScope scope(state_->memory);
   if (Status status = state_->require_torn(); !status) return status;
   return RefitJob::create(state_->torn->model, wanted);
 }
 
 Result<OperationJob> CharacterInstance::begin_operation(const Operation& operation) {
-  if (Status status = state_->require_torn(); !status) return status;
-  return OperationJob::create(state_->torn->model, operation);
+  const MemoryScope scope(state_->memory);
+  try {
+    return state_->begin_operation(operation);
+  } catch (const std::bad_alloc&) {
+    return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
+  }
 }
 
 Result<TearReport> CharacterInstance::swap_in(const OperationJob& job, ChangeRecord* change) {
-  return state_->change(
-      change, [&](ChangeRecord* record) { return job.swap_in(state_->torn->model, record); });
+  const MemoryScope scope(state_->memory);
+  if (job.poll() == OperationJob::State::failed) {
+    state_->drop(job);
+    return job.failure();
+  }
+  return state_->swap_in(job, change);
 }
 
 Result<WeightReport> CharacterInstance::swap_in(const RefitJob& job, ChangeRecord* change) {
+  const MemoryScope scope(state_->memory);
   return state_->change(
       change, [&](ChangeRecord* record) { return job.swap_in(state_->torn->model, record); });
 }
 
 Result<CompactMaps> CharacterInstance::compact() {
+  const MemoryScope scope(state_->memory);
   State& state = *state_;
   if (Status status = state.require_torn(); !status) return status;
   try {
@@ -210,7 +255,9 @@ Result<CompactMaps> CharacterInstance::compact() {
 
 // ---- Frames.
 
-Status CharacterInstance::advance(const ModelPose& pose, double seconds) {
+Status CharacterInstance::advance(const ModelPose& pose, double seconds,
+                                  std::uint32_t settled_points) {
+  const MemoryScope scope(state_->memory);
   State& state = *state_;
   if (state.is_broken) return out_of_memory();
   if (Status status = check_seconds(seconds); !status) return status;
@@ -224,7 +271,8 @@ Status CharacterInstance::advance(const ModelPose& pose, double seconds) {
   }
   if (SoftBody* const soft = body()) {
     state.needs_draw |= soft->needs_step();
-    if (Status status = soft->step(state.torn->model, pose, seconds); !status) return status;
+    if (Status status = soft->step(state.torn->model, pose, seconds, settled_points); !status)
+      return status;
   }
   if (!is_moved) return {};
   state.pose = pose;
@@ -232,7 +280,14 @@ Status CharacterInstance::advance(const ModelPose& pose, double seconds) {
   return {};
 }
 
+bool CharacterInstance::settle(std::uint32_t points) {
+  const MemoryScope scope(state_->memory);
+  if (particles() == nullptr || points == 0) return needs_settling();
+  return state_->torn->particles->settle(state_->torn->model, points);
+}
+
 Status CharacterInstance::draw(const ParallelFor& parallel_for) {
+  const MemoryScope scope(state_->memory);
   Status status = state_->draw(parallel_for);
   if (!status && state_->drawn)
     for (scene::InstanceMesh& mesh : state_->drawn->meshes) mesh.forget();
@@ -240,6 +295,7 @@ Status CharacterInstance::draw(const ParallelFor& parallel_for) {
 }
 
 Status CharacterInstance::set_target(std::uint32_t mesh, const VertexTarget& target) {
+  const MemoryScope scope(state_->memory);
   SUNDER_ASSERT(mesh < state_->shared().meshes.size());
   try {
     if (Status status = state_->require_drawn(); !status) return status;
@@ -252,6 +308,7 @@ Status CharacterInstance::set_target(std::uint32_t mesh, const VertexTarget& tar
 }
 
 PosedMesh CharacterInstance::mesh(std::uint32_t mesh, std::uint64_t seen) {
+  const MemoryScope scope(state_->memory);
   SUNDER_ASSERT(mesh < state_->shared().meshes.size());
   if (!state_->drawn) return {};
   try {
@@ -280,6 +337,7 @@ const SoftBody* CharacterInstance::body() const {
   return state_->torn && state_->torn->body ? &*state_->torn->body : nullptr;
 }
 VertexDisplacements CharacterInstance::displacements(std::uint32_t mesh) {
+  const MemoryScope scope(state_->memory);
   SUNDER_ASSERT(mesh < state_->shared().meshes.size());
   return state_->displacements(mesh);
 }
@@ -297,6 +355,7 @@ Result<CharacterInstance::TissueState> CharacterInstance::tissue() const {
 }
 
 Status CharacterInstance::restore_tissue(const TissueState& wanted) {
+  const MemoryScope scope(state_->memory);
   State& state = *state_;
   if (Status status = state.require_torn(); !status) return status;
   const std::optional<SoftTissue>& soft = state.shared().options.soft;
@@ -318,6 +377,9 @@ std::uint32_t CharacterInstance::drawn_vertices() const {
 }
 std::size_t CharacterInstance::memory_bytes() const { return state_->memory_bytes(); }
 bool CharacterInstance::needs_draw() const { return state_->needs_draw; }
+bool CharacterInstance::needs_settling() const {
+  return particles() != nullptr && !particles()->is_settled();
+}
 bool CharacterInstance::needs_step() const {
   const SoftBody* const soft = body();
   return soft != nullptr && soft->needs_step();

@@ -3,6 +3,8 @@
 #include <atomic>
 #include <new>
 
+#include "scene/actor/piece_tissue.h"
+
 namespace sunder {
 namespace {
 
@@ -35,6 +37,14 @@ Status CharacterInstance::State::require_torn() {
   } catch (const std::bad_alloc&) {
     return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
   }
+}
+
+Status CharacterInstance::State::prepare_to_tear() {
+  if (Status status = require_torn(); !status) return status;
+  if (torn->model.is_packed())
+    if (Status status = shared().torn->prepare(1, capacity); !status) return status;
+  if (Status status = torn->model.unpack(); !status) return status;
+  return torn->particles ? torn->particles->prepare_to_follow() : Status();
 }
 
 Status CharacterInstance::State::restore_tissue(const SoftTissue& soft, ParticleSet set,
@@ -88,6 +98,67 @@ Status CharacterInstance::State::follow(std::span<const ChangeRecord> changes) {
   Status status = torn->particles->follow(torn->model, changes);
   is_broken = !status;
   return status;
+}
+
+void CharacterInstance::State::keep_tissue(const DetachedPiece& piece,
+                                           PieceTissue& tissue) noexcept {
+  tissue = {};
+  if (!torn->body) return;
+  try {
+    (void)torn->body->displacements();  // of the particles as earlier operations left them
+    tissue = scene::tissue_of(piece, *torn->body);
+  } catch (const std::bad_alloc&) {
+    tissue = {};
+  }
+}
+
+Result<OperationJob> CharacterInstance::State::begin_operation(const Operation& operation) {
+  if (Status status = require_torn(); !status) return status;
+  begun.reset();
+  std::optional<ParticleFork> fork;
+  if (torn->particles) {
+    Result<ParticleFork> made = ParticleFork::create(*torn->particles, torn->model);
+    if (!made) return made.error();
+    fork.emplace(std::move(*made));
+  }
+  const auto prepared =
+      std::make_shared<scene::PreparedSwap>(asset, shared().meshes, std::move(fork));
+  Result<OperationJob> job = OperationJob::create(
+      torn->model, operation,
+      [prepared](const TornModel& replica, std::span<const ChangeRecord> changes) {
+        prepared->prepare(replica, changes);
+      });
+  if (job) begun.emplace(scene::BegunOperation{*job, prepared});
+  return job;
+}
+
+void CharacterInstance::State::drop(const OperationJob& job) noexcept {
+  if (!begun || begun->job != job) return;
+  begun->prepared->cancel();
+  begun.reset();
+}
+
+Result<TearReport> CharacterInstance::State::swap_in(const OperationJob& job,
+                                                     ChangeRecord* change) {
+  if (!begun || begun->job != job)
+    return this->change(change,
+                        [&](ChangeRecord* record) { return job.swap_in(torn->model, record); });
+  ChangeRecord& record = change != nullptr ? *change : scratch_;
+  const std::uint64_t before = torn->model.newest_operation();
+  Result<TearReport> report = job.swap_in(torn->model, &record);
+  if (!report) return report;
+  const std::shared_ptr<scene::PreparedSwap> prepared = std::move(begun->prepared);
+  begun.reset();
+  if (torn->model.newest_operation() == before) {  // it missed
+    prepared->cancel();
+    return report;
+  }
+  note({&record, 1});
+  if (drawn) prepared->give(drawn->meshes);
+  if (!torn->particles || prepared->give(*torn->particles, torn->model)) return report;
+  const Status status = torn->particles->follow(torn->model, {&record, 1});
+  is_broken = !status;
+  return status ? report : Result<TearReport>(status);
 }
 
 Status CharacterInstance::State::set_palettes() {

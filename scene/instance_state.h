@@ -1,13 +1,17 @@
 #pragma once
 
+#include <sunder/core/memory_scope.h>
 #include <sunder/scene/character_instance.h>
+#include <sunder/scene/scene_command.h>
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "scene/asset_data.h"
 #include "scene/drawing/instance_mesh.h"
+#include "scene/drawing/prepared_swap.h"
 #include "scene/torn_parts.h"
 
 namespace sunder {
@@ -24,12 +28,14 @@ struct CharacterInstance::State {
   [[nodiscard]] bool is_own(std::uint64_t other) const { return (other ^ epoch) >> 32 == 0; }
 
   std::shared_ptr<const CharacterAsset> asset;
+  std::pmr::memory_resource* memory = MemoryScope::current();  ///< From which all calls allocate.
   TornCapacity capacity;
   std::unique_ptr<scene::TornParts> torn;  ///< Null before the first operation.
   std::unique_ptr<DrawnParts> drawn;       ///< Null before the first draw().
   ModelPose pose;
   /// Upper half: a number of this object; lower half: of the last draw() that had something to do.
   std::uint64_t epoch;
+  std::optional<scene::BegunOperation> begun;  ///< The newest operation in the background.
   bool needs_draw = false;
   bool is_broken = false;  ///< Memory ran out between two parts, which no longer agree.
 
@@ -40,6 +46,8 @@ struct CharacterInstance::State {
 
   /// Makes what the first operation needs, if it is not there.
   Status require_torn();
+  /// The same, and all memory for it.
+  Status prepare_to_tear();
   /// Replaces the soft body. @throws nothing; a failure changes nothing.
   Status restore_tissue(const SoftTissue& soft, ParticleSet set, const StateArrays& body);
   /// Makes what draw() needs, if it is not there. @throws std::bad_alloc
@@ -48,6 +56,13 @@ struct CharacterInstance::State {
   void note(std::span<const ChangeRecord> changes) noexcept;
   /// Lets the meshes and the particles know.
   Status follow(std::span<const ChangeRecord> changes);
+  /// Keeps the motion of a piece before its particles vanish. Without memory it is at rest.
+  void keep_tissue(const DetachedPiece& piece, PieceTissue& tissue) noexcept;
+  /// Begins an operation on a replica, with what its swap_in() needs. @throws std::bad_alloc
+  Result<OperationJob> begin_operation(const Operation& operation);
+  Result<TearReport> swap_in(const OperationJob& job, ChangeRecord* change);
+  /// Drops what an operation prepared that failed.
+  void drop(const OperationJob& job) noexcept;
   Status set_palettes();
   Status update_mesh(Index mesh);
   /// How particles displace a mesh, without gradients.

@@ -1,3 +1,4 @@
+#include <sunder/core/memory_scope.h>
 #include <sunder/scene/scene.h>
 #include <sunder/skinning/pose.h>
 
@@ -47,6 +48,25 @@ bool Scene::State::is_turn_of(Index slot) const {
   return (stats.frame + slot) % interval == 0;  // instances take turns
 }
 
+/// Divides the budget among the instances that have optional work, before any of them runs, so that
+/// results do not depend on threads.
+void Scene::State::share_budget() {
+  constexpr Index kMostPoints = 500;  // per instance
+  std::sort(active.begin(), active.end());
+  FrameBudget left = budget;
+  for (std::size_t i = 0; i < active.size(); ++i) {
+    scene::Actor& actor = *slots[active[(stats.frame + i) % active.size()]].actor;
+    actor.allowance = {};
+    if (actor.may_want_settling()) {
+      actor.allowance.settled_points = std::min(kMostPoints, left.settled_points);
+      left.settled_points -= actor.allowance.settled_points;
+    }
+    actor.allowance.has_model_work = left.model_work > 0;
+    if (budget.model_work != FrameBudget::kUnlimited && left.model_work > 0)
+      left.model_work -= actor.wants_model_work();
+  }
+}
+
 void Scene::State::run_actors() {
   // Few instances share the threads for their vertices; many are a task each.
   const bool is_each_a_task = active.size() >= parallel_for.threads;
@@ -57,9 +77,10 @@ void Scene::State::run_actors() {
   const Work work = {this, is_each_a_task ? ParallelFor() : parallel_for};
   const auto task = [](const void* of, std::uint32_t index) {
     const auto& [scene, inner] = *static_cast<const Work*>(of);
+    const MemoryScope scope(scene->options.memory);
     const Index slot = scene->active[index];
-    scene->slots[slot].actor->update(
-        {scene->now, scene->is_turn_of(slot), inner, scene->background});
+    scene->slots[slot].actor->update({scene->now, scene->is_turn_of(slot), inner, scene->background,
+                                      scene->slots[slot].actor->allowance});
   };
   const auto count = static_cast<std::uint32_t>(active.size());
   if (is_each_a_task && parallel_for.run != nullptr && count > 1)
@@ -83,6 +104,10 @@ void Scene::State::collect() {
     stats.vertices += of.vertices;
     stats.animation += of.animation;
     stats.operations += of.operations;
+    stats.settling += of.settling;
+    stats.settled_points += of.settled_points;
+    stats.model_work += of.did_model_work;
+    stats.unsettled += actor.wants_settling();
     stats.tissue += of.tissue;
     stats.drawing += of.drawing;
     if (of.was_drawn) drawn.push_back({slot, slots[slot].generation});
@@ -90,7 +115,7 @@ void Scene::State::collect() {
     std::move(of_actor.begin(), of_actor.end(), std::back_inserter(results));
     of_actor.clear();
     stats.in_background += actor.commands.background_count();
-    actor.is_listed = actor.is_active();
+    actor.is_listed = actor.is_active() || actor.may_pack();
     if (actor.is_listed)
       active[kept++] = slot;
     else
@@ -101,6 +126,8 @@ void Scene::State::collect() {
   active.resize(kept);
   std::sort(results.begin(), results.end(),
             [](const CommandResult& a, const CommandResult& b) { return a.command < b.command; });
+  if (stats.settled_points > 0)
+    settling_rate += 0.1 * (stats.settling / stats.settled_points - settling_rate);
   stats.commands = static_cast<std::uint32_t>(results.size());
   for (const CommandResult& result : results) stats.failed += !result.status;
 }
@@ -111,6 +138,7 @@ Scene::Scene(Scene&&) noexcept = default;
 Scene& Scene::operator=(Scene&&) noexcept = default;
 
 Result<Scene> Scene::create(const SceneOptions& options) {
+  const MemoryScope scope(options.memory);
   try {
     auto state = std::make_unique<State>(options);
     state->parallel_for = options.parallel_for;
@@ -133,6 +161,7 @@ Result<Scene> Scene::create(const SceneOptions& options) {
 
 Result<InstanceId> Scene::spawn(std::shared_ptr<const CharacterAsset> asset,
                                 const SpawnOptions& options) {
+  const MemoryScope scope(state_->options.memory);
   Result<CharacterInstance> made = CharacterInstance::create(std::move(asset), options.capacity);
   if (!made) return made.error();
   State& state = *state_;
@@ -158,6 +187,7 @@ Result<InstanceId> Scene::spawn(std::shared_ptr<const CharacterAsset> asset,
 }
 
 Status Scene::destroy(InstanceId id) {
+  const MemoryScope scope(state_->options.memory);
   State& state = *state_;
   scene::Actor* const actor = state.find(id);
   if (actor == nullptr) return scene::no_instance(id);
@@ -196,6 +226,7 @@ const CharacterInstance* Scene::find(InstanceId id) const {
 // ---- Motion and visibility.
 
 Result<LayerId> Scene::play(InstanceId id, std::uint32_t clip, const LayerOptions& options) {
+  const MemoryScope scope(state_->options.memory);
   ClipPlayer* const of = player(id);
   if (of == nullptr) return contains(id) ? out_of_memory() : scene::no_instance(id);
   const std::shared_ptr<const Character>& character = find(id)->asset()->character();
@@ -207,6 +238,7 @@ Result<LayerId> Scene::play(InstanceId id, std::uint32_t clip, const LayerOption
 }
 
 ClipPlayer* Scene::player(InstanceId id) {
+  const MemoryScope scope(state_->options.memory);
   scene::Actor* const actor = state_->find(id);
   if (actor == nullptr) return nullptr;
   try {
@@ -219,6 +251,7 @@ ClipPlayer* Scene::player(InstanceId id) {
 }
 
 Status Scene::stop(InstanceId id) {
+  const MemoryScope scope(state_->options.memory);
   return state_->call(id, [](scene::Actor& actor) -> Status {
     actor.stop();
     return {};
@@ -226,10 +259,12 @@ Status Scene::stop(InstanceId id) {
 }
 
 Status Scene::set_pose(InstanceId id, const ModelPose& pose) {
+  const MemoryScope scope(state_->options.memory);
   return state_->call(id, [&](scene::Actor& actor) { return actor.set_pose(pose); });
 }
 
 Status Scene::set_pose(InstanceId id, const Pose& pose) {
+  const MemoryScope scope(state_->options.memory);
   return state_->call(id, [&](scene::Actor& actor) {
     ModelPose model;
     const Status status =
@@ -259,6 +294,7 @@ Status Scene::set_screen_height(InstanceId id, double pixels) {
 
 Result<CommandId> Scene::submit(InstanceId id, SceneCommand command,
                                 const CommandOptions& options) {
+  const MemoryScope scope(state_->options.memory);
   try {
     return state_->queue.push(id, std::move(command), options);
   } catch (const std::bad_alloc&) {
@@ -267,6 +303,7 @@ Result<CommandId> Scene::submit(InstanceId id, SceneCommand command,
 }
 
 Status Scene::update(double seconds) {
+  const MemoryScope scope(state_->options.memory);
   if (!std::isfinite(seconds))
     return Status::failure(StatusCode::non_finite_value, kNone,
                            "the time since the last update is not finite");
@@ -289,6 +326,7 @@ Status Scene::update(double seconds) {
     state.stats.idle =
         state.stats.instances - static_cast<Index>(state.active.size()) - state.hidden;
     state.stats.unseen = state.hidden;
+    state.share_budget();
     state.run_actors();
     for (const Index slot : state.active)
       if (const Status& of = state.slots[slot].actor->frame.status; !of && status) {
@@ -303,11 +341,19 @@ Status Scene::update(double seconds) {
   return status;
 }
 
+void Scene::set_budget(const FrameBudget& budget) { state_->budget = budget; }
+
+FrameBudget Scene::budget_of(double microseconds) const {
+  const double points = std::clamp(microseconds / state_->settling_rate, 0.0, 1e9);
+  return {static_cast<std::uint32_t>(points), microseconds > 0 ? 1u : 0u};
+}
+
 const FrameStats& Scene::stats() const { return state_->stats; }
 std::span<const CommandResult> Scene::results() const { return state_->results; }
 std::span<const InstanceId> Scene::drawn() const { return state_->drawn; }
 
 PosedMesh Scene::mesh(InstanceId id, std::uint32_t mesh, std::uint64_t seen) {
+  const MemoryScope scope(state_->options.memory);
   scene::Actor* const actor = state_->find(id);
   return actor == nullptr ? PosedMesh() : actor->shown().mesh(mesh, seen);
 }

@@ -1,3 +1,5 @@
+#include <sunder/core/memory_scope.h>
+
 #include <algorithm>
 #include <cmath>
 #include <new>
@@ -164,6 +166,7 @@ Result<std::vector<std::byte>> Scene::save() const {
 
 Status Scene::restore(std::span<const std::byte> snapshot, scene::Assets assets,
                       const TornCapacity& capacity) {
+  const MemoryScope scope(state_->options.memory);
   try {
     scene::SnapshotReader reader(snapshot);
     std::uint32_t magic = 0, version = 0, slots = 0;

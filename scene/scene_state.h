@@ -39,10 +39,13 @@ struct Scene::State {
       abandoned;  ///< Of instances that were destroyed since the last update.
   std::vector<InstanceId> drawn;
   FrameStats stats;
+  FrameBudget budget;
+  double settling_rate = 1.0;  ///< Measured microseconds per point.
   double now = 0;
   scene::Background background;  // ends before anything that its jobs use
 
-  explicit State(const SceneOptions& of) : options(of), background(of.background) {}
+  explicit State(const SceneOptions& of)
+      : options(of), background(of.background, of.background_updates) {}
 
   [[nodiscard]] scene::Actor* find(InstanceId id) const {
     if (id.slot >= slots.size() || slots[id.slot].generation != id.generation) return nullptr;
@@ -67,6 +70,7 @@ struct Scene::State {
   Status replace(std::vector<scene::Slot> made, std::vector<Index> free, double time,
                  std::uint64_t frame);
   void take_commands();
+  void share_budget();
   void run_actors();
   void collect();
   [[nodiscard]] bool is_turn_of(Index slot) const;

@@ -210,7 +210,7 @@ double BlockBuilder::work(const std::vector<std::uint32_t>& order, bool scattere
   double sum = 0;
   for (std::uint32_t i = 0; i < order.size(); i += kLanes) {
     find_slots(order.data() + i, std::min(kLanes, static_cast<std::uint32_t>(order.size()) - i));
-    sum += kBlockWork + kSlotWork * static_cast<double>(slots_.size()) +
+    sum += kBlockWork + kSlotWork * static_cast<double>(slots_.slots().size()) +
            (scattered ? kScatterWork : 0);
   }
   return sum;
@@ -221,11 +221,10 @@ void BlockBuilder::find_slots(const std::uint32_t* vertices, std::uint32_t count
   influence_count_ = 0;
   for (std::uint32_t lane = 0; lane < count; ++lane)
     for_each_influence(source_, vertices[lane], [&](std::uint32_t slot, float) {
-      slots_.push_back(static_cast<std::uint16_t>(slot));
+      slots_.insert(slot);
       ++influence_count_;
     });
-  std::sort(slots_.begin(), slots_.end());
-  slots_.erase(std::unique(slots_.begin(), slots_.end()), slots_.end());
+  slots_.finish();
 }
 
 void BlockBuilder::append_block(const std::uint32_t* vertices, std::uint32_t count,
@@ -252,15 +251,16 @@ void BlockBuilder::append_block(const std::uint32_t* vertices, std::uint32_t cou
 
   find_slots(vertices, count);
   const Block* before = number > 0 ? &blocks_.blocks.back() : nullptr;
-  if (before != nullptr && before->slot_count == slots_.size() &&
-      std::equal(slots_.begin(), slots_.end(), blocks_.slots.begin() + before->slots)) {
+  const std::span<const std::uint16_t> slots = slots_.slots();
+  if (before != nullptr && before->slot_count == slots.size() &&
+      std::equal(slots.begin(), slots.end(), blocks_.slots.begin() + before->slots)) {
     block.slots = before->slots;
   } else {
     block.slots = static_cast<std::uint32_t>(blocks_.slots.size());
-    blocks_.slots.insert(blocks_.slots.end(), slots_.begin(), slots_.end());
+    blocks_.slots.insert(blocks_.slots.end(), slots.begin(), slots.end());
   }
-  block.slot_count = static_cast<std::uint16_t>(slots_.size());
-  for (const std::uint16_t slot : slots_) blocks_.movers.append(slot, number);
+  block.slot_count = static_cast<std::uint16_t>(slots.size());
+  for (const std::uint16_t slot : slots) blocks_.movers.append(slot, number);
 
   append_attributes(vertices, count);
   append_weights(vertices, count, block, extra);
@@ -291,7 +291,8 @@ void BlockBuilder::append_attributes(const std::uint32_t* vertices, std::uint32_
 
 void BlockBuilder::append_weights(const std::uint32_t* vertices, std::uint32_t count, Block& block,
                                   BlockExtra& extra) {
-  if (slots_.size() * kLanes > kSparseFrom * influence_count_ && slots_.size() > kSparseFrom) {
+  const std::size_t slot_count = slots_.slots().size();
+  if (slot_count * kLanes > kSparseFrom * influence_count_ && slot_count > kSparseFrom) {
     block.kind |= kSparse;
     for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
       const std::size_t first = blocks_.sparse.influences.size();
@@ -317,12 +318,10 @@ void BlockBuilder::append_weights(const std::uint32_t* vertices, std::uint32_t c
     return;
   }
   const std::size_t first = blocks_.stream.size();
-  blocks_.stream.resize(first + slots_.size() * kLanes);
+  blocks_.stream.resize(first + slot_count * kLanes);
   for (std::uint32_t lane = 0; lane < count; ++lane)
     for_each_influence(source_, vertices[lane], [&](std::uint32_t slot, float weight) {
-      const auto k = static_cast<std::size_t>(std::lower_bound(slots_.begin(), slots_.end(), slot) -
-                                              slots_.begin());
-      blocks_.stream[first + kLanes * k + lane] += weight;
+      blocks_.stream[first + kLanes * slots_.place(slot) + lane] += weight;
     });
 }
 

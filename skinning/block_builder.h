@@ -39,7 +39,7 @@ class BlockBuilder {
 
   const VertexSource& source_;
   Blocks& blocks_;
-  std::vector<std::uint16_t>& slots_;  // of the current block, ascending
+  SlotSet& slots_;                     // of the current block
   std::uint32_t influence_count_ = 0;  // of the current block
   std::vector<std::uint32_t> order_, gathered_;
   std::vector<std::uint32_t>

@@ -10,7 +10,7 @@ namespace {
 
 /// Numbers of influences among some vertices.
 struct InfluenceCounts {
-  std::size_t all = 0, most_per_vertex = 0;
+  std::size_t all = 0;
   std::size_t exact_vertices = 0, exact = 0;  ///< Of vertices with a position per influence.
 };
 
@@ -18,10 +18,7 @@ InfluenceCounts count_influences(const VertexSource& source, std::uint32_t first
                                  std::uint32_t end) {
   InfluenceCounts counts;
   for (std::uint32_t v = first; v < end; ++v) {
-    std::size_t of_vertex = 0;
-    for_each_influence(source, v, [&](std::uint32_t, float) { ++of_vertex; });
-    counts.all += of_vertex;
-    counts.most_per_vertex = std::max(counts.most_per_vertex, of_vertex);
+    for_each_influence(source, v, [&](std::uint32_t, float) { ++counts.all; });
   }
   if (source.per_influence == nullptr) return counts;
   const auto& exact = source.per_influence->vertices;
@@ -53,7 +50,6 @@ void make_room(const VertexSource& source, std::uint32_t first, std::uint32_t en
   make(count, blocks.revisions);
   make(count, blocks.extras);
   make(influences.all, blocks.slots);
-  blocks.scratch.reserve(kLanes * influences.most_per_vertex);
   make(influences.all, blocks.sparse.influences);
   make(count * kLanes, blocks.sparse.lane_ends);
   make(morphs, blocks.morphs.parts);

@@ -7,6 +7,7 @@
 
 #include "skinning/aligned_vector.h"
 #include "skinning/mover_runs.h"
+#include "skinning/slot_set.h"
 
 namespace sunder::skinning {
 
@@ -116,8 +117,8 @@ struct Blocks {
   Scattered scattered;
   Morphs morphs;
   Exact exact;
-  std::vector<std::uint16_t> scratch;  ///< Slots of the block under construction.
-  MoverRuns movers;                    ///< The blocks of each slot, then of each morph target.
+  SlotSet scratch;   ///< Slots of the block under construction.
+  MoverRuns movers;  ///< The blocks of each slot, then of each morph target.
 
   [[nodiscard]] std::uint32_t block_count() const {
     return static_cast<std::uint32_t>(blocks.size());

@@ -239,6 +239,7 @@ Result<SkinnedMesh> SkinnedMesh::create(const VertexSource& source, std::size_t 
     blocks->layout.has_tangents = source.tangents.data != nullptr;
     blocks->layout.first_morph_weight = source.first_morph_weight;
     blocks->layout.morph_count = static_cast<std::uint32_t>(source.morph_targets.size());
+    blocks->scratch.make_room(slots);
     blocks->movers.resize(slots + source.morph_targets.size());
     skinning::BlockBuilder builder(source, *blocks);
     for (std::uint32_t v = 0; v < source.vertex_count; v += skinning::kWindow)
@@ -306,7 +307,6 @@ Status SkinnedMesh::reserve(std::uint32_t more_vertices, std::uint32_t influence
     add(b.blocks, blocks);
     add(b.revisions, blocks);
     add(b.slots, slots);
-    add(b.scratch, skinning::kLanes * influences);
     add(b.extras, blocks);
     add(b.sparse.influences, std::size_t{more_vertices} * influences);
     add(b.sparse.lane_ends, blocks * skinning::kLanes);
@@ -379,6 +379,7 @@ Status SkinnedMesh::deform(const BonePalette& palette, PosedBuffer& buffer,
     is_known
         ? mark_changed(blocks, data, buffer.palette_revision_, buffer.mesh_revision_, buffer.marks_)
         : mark({0, blocks.block_count()}, buffer.marks_);
+    if (!is_known) buffer.released_.mesh_revision = 0;  // its blocks are those of another mesh
     mark_released(blocks, buffer.released_, buffer.marks_);
     mark_displaced(blocks, moved, buffer.displaced_, buffer.marks_);
     list_runs(blocks, buffer.marks_, buffer.blocks_to_write_);

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <new>
 #include <optional>
+#include <utility>
 
 #include "core/internal/out_of_memory.h"
 #include "tear/model/instance.h"
@@ -19,6 +20,7 @@ struct OperationTask {
   std::vector<Operation> history;
   std::vector<std::uint64_t> serials;  ///< Of the operations that the model has done.
   Operation operation;
+  OperationJob::Observer observer;
   std::optional<TornModel> replica;  ///< With the operation on its redo stack, once it is done.
   TearReport report;
   Status failure;
@@ -40,8 +42,11 @@ Status run_task(tear::OperationTask& task) {
   for (const Operation& operation : task.history)
     if (Result<TearReport> done = apply_operation(*made, operation); !done) return done.error();
   const std::uint32_t before = made->undo_count();
-  Result<TearReport> report = apply_operation(*made, task.operation);
+  std::vector<ChangeRecord> changes;
+  Result<TearReport> report =
+      apply_operation(*made, task.operation, task.observer ? &changes : nullptr);
   if (!report) return report.error();
+  if (task.observer) task.observer(*made, changes);
   task.report = std::move(*report);
   if (made->undo_count() > before)
     if (Status status = made->undo(); !status) return status;
@@ -53,7 +58,8 @@ Status run_task(tear::OperationTask& task) {
 
 OperationJob::OperationJob(std::shared_ptr<tear::OperationTask> task) : task_(std::move(task)) {}
 
-Result<OperationJob> OperationJob::create(TornModel& model, const Operation& operation) {
+Result<OperationJob> OperationJob::create(TornModel& model, const Operation& operation,
+                                          Observer observer) {
   if (Status status = model.unpack(); !status) return status;
   const TornModel::State& state = *model.state_;
   if (std::holds_alternative<UndoOperation>(operation) ||
@@ -69,6 +75,7 @@ Result<OperationJob> OperationJob::create(TornModel& model, const Operation& ope
     task->history = std::move(*history);
     for (const auto& entry : state.history.done()) task->serials.push_back(entry->serial);
     task->operation = operation;
+    task->observer = std::move(observer);
     return OperationJob(std::move(task));
   } catch (const std::bad_alloc&) {
     return out_of_memory();

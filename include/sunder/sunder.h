@@ -14,6 +14,7 @@
 #include <sunder/core/clip.h>
 #include <sunder/core/index.h>
 #include <sunder/core/math.h>
+#include <sunder/core/memory_scope.h>
 #include <sunder/core/mesh.h>
 #include <sunder/core/parallel_for.h>
 #include <sunder/core/skeleton.h>
@@ -25,6 +26,7 @@
 #include <sunder/particles/collider.h>
 #include <sunder/particles/force_tearing.h>
 #include <sunder/particles/material.h>
+#include <sunder/particles/particle_fork.h>
 #include <sunder/particles/particle_set.h>
 #include <sunder/particles/soft_body.h>
 #include <sunder/particles/state_arrays.h>

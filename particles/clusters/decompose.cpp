@@ -102,7 +102,7 @@ void sort_memberships(std::span<const Visit> visits, std::span<const Found> foun
   PointTable& points = structure.points;
   MemberLists::OfDecomposition& members = *structure.members.decomposed;
   members.points.resize(visits.size());
-  points.memberships.resize(visits.size());
+  std::vector<ParticleMembership> memberships(visits.size());
   points.slabs.resize(found.size());
   Index first = 0;
   for (Index p = 0; p < found.size(); ++p) {
@@ -113,8 +113,9 @@ void sort_memberships(std::span<const Visit> visits, std::span<const Found> foun
     for (Index v = members.first[p]; v < members.first[p + 1]; ++v) {
       MembershipSlab& slab = points.slabs[visits[v].point];
       members.points[v] = visits[v].point;
-      points.memberships[slab.first + slab.count++] = {p, visits[v].distance / range};
+      memberships[slab.first + slab.count++] = {p, visits[v].distance / range};
     }
+  points.memberships.set_decomposed(std::move(memberships));
 }
 
 /// Computes the rest terms of all particles from their members.

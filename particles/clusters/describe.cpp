@@ -137,13 +137,14 @@ void describe_points(Tape& tape, PointTable& of, const PointTable& before) {
   describe_changed(tape, of.influences, before.influences);
   describe_changed(tape, of.lip_points, before.lip_points);
   // Those after the end are of operations that were undone.
+  const auto appended = of.memberships.from(before.memberships.size());
   std::vector<ParticleMembership> more(
-      of.memberships.begin() + static_cast<std::ptrdiff_t>(before.memberships.size()),
-      of.memberships.begin() + static_cast<std::ptrdiff_t>(of.ends.memberships));
+      appended.begin(), appended.begin() + static_cast<std::ptrdiff_t>(of.ends.memberships -
+                                                                       before.memberships.size()));
   describe_each(tape, more);
   if (tape.is_reading()) {
     of.memberships = before.memberships;
-    of.memberships.insert(of.memberships.end(), more.begin(), more.end());
+    of.memberships.append(more);
   }
   std::vector<OnLip> older(of.older_lips.begin(),
                            of.older_lips.begin() + static_cast<std::ptrdiff_t>(of.ends.older_lips));

@@ -135,10 +135,13 @@ std::span<const ParticleGradients> Gradients::of(const Surface& surface,
                                                  const Structure& structure) {
   const Index count = structure.points.count();
   const auto known = static_cast<Index>(is_known_.size());
+  // Nothing is written then, because a copy may be made on another thread.
+  if (is_wanted_ && unknown_.empty() && known == count && gradients_.size() == count)
+    return gradients_;
   const std::size_t come = count > known ? count - known : 0;
   // All memory is allocated first, so that forget() needs none.
-  gradients_.reserve(count);
-  unknown_.reserve(std::max<std::size_t>(unknown_.size() + come, count));
+  reserve_eighth(gradients_, count);
+  reserve_eighth(unknown_, std::max<std::size_t>(unknown_.size() + come, count));
   is_known_.resize(count, false);
   for (Index point = known; point < count; ++point) unknown_.push_back(point);
   is_wanted_ = true;

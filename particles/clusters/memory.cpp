@@ -56,7 +56,7 @@ std::size_t Gradients::memory_bytes() const {
 }
 
 std::size_t Structure::memory_bytes() const {
-  std::size_t bytes = sizeof(Structure) + bytes_of(points) + bytes_of(points.memberships) +
+  std::size_t bytes = sizeof(Structure) + bytes_of(points) + points.memberships.memory_bytes() +
                       bytes_of(points.older_lips) + bytes_of(vertex_points.of_mesh) +
                       bytes_of(members.joined) + bytes_of(lips) + bytes_of(dirty) +
                       bytes_of(scratch) + gradients->memory_bytes();

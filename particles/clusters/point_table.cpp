@@ -21,7 +21,7 @@ void PointTable::put_on_lip(Index point, Index tear, Side side) {
 }
 
 void PointTable::drop_undone() {
-  memberships.resize(ends.memberships);
+  memberships.shrink(ends.memberships);
   older_lips.resize(ends.older_lips);
 }
 

@@ -3,6 +3,7 @@
 #include <sunder/particles/particle_set.h>
 
 #include "particles/clusters/lip_point.h"
+#include "particles/clusters/membership_list.h"
 
 namespace sunder::particles {
 
@@ -53,13 +54,13 @@ struct TableEnds {
 struct PointTable : PointColumns {
   /// The memberships of a point are contiguous, ascending by particle. A change appends the new
   /// ones and leaves the old ones in place, for undo.
-  std::vector<ParticleMembership> memberships;
+  MembershipList memberships;
   std::vector<OnLip> older_lips;
   TableEnds ends;
 
   [[nodiscard]] Index count() const { return static_cast<Index>(positions.size()); }
   [[nodiscard]] std::span<const ParticleMembership> memberships_of(Index point) const {
-    return {memberships.data() + slabs[point].first, slabs[point].count};
+    return memberships.at(slabs[point].first, slabs[point].count);
   }
   [[nodiscard]] const ParticleMembership* find(Index point, Index particle) const {
     for (const ParticleMembership& membership : memberships_of(point))

@@ -26,36 +26,30 @@ VertexRef vertex_of(const TornModel& model, Index point) {
   return {ref.mesh, model.character().meshes[ref.mesh].triangles[ref.triangle][corner % 3]};
 }
 
-void RestOfVertex::set(const TornModel& model, std::span<const Index> first_slot,
-                       const VertexRef& of) {
-  terms_.clear();
-  morph_terms_.clear();
+void RestChange::begin(Particle& particle) {
+  places_.resize(first_slot_.back(), kNone);
+  particle_ = &particle;
+  for (Index i = 0; i < particle.terms.size(); ++i) places_[particle.terms[i].slot] = i;
+}
+
+void RestChange::add(const VertexRef& vertex, double sign) {
   for_each_rest_term(
-      model, first_slot, of,
+      model_, first_slot_, vertex,
       [&](Index slot, const Vec4d& term) {
-        terms_.push_back({slot, term});
+        Index& place = places_[slot];
+        if (place == kNone) {
+          particle_->terms.push_back({slot, Vec4d(Vec4d::Zero())});
+          place = static_cast<Index>(particle_->terms.size() - 1);
+        }
+        particle_->terms[place].sum += sign * term;
       },
       [&](Index morph_weight, Index slot, const Vec3d& term) {
-        morph_terms_.push_back({morph_weight, slot, term});
+        particles::add(particle_->morph_terms, morph_weight, slot, sign * term);
       });
 }
 
-void RestOfVertex::add_to(Particle& particle, double sign) {
-  places_.resize(terms_.size(), 0);
-  for (std::size_t i = 0; i < terms_.size(); ++i) {
-    // Usually the previous particle had the same bone at this place.
-    if (places_[i] >= particle.terms.size() || particle.terms[places_[i]].slot != terms_[i].slot) {
-      places_[i] = 0;
-      while (places_[i] < particle.terms.size() &&
-             particle.terms[places_[i]].slot != terms_[i].slot)
-        ++places_[i];
-      if (places_[i] == particle.terms.size())
-        particle.terms.push_back({terms_[i].slot, Vec4d(Vec4d::Zero())});
-    }
-    particle.terms[places_[i]].sum += sign * terms_[i].sum;
-  }
-  for (const RestMorphTerm& term : morph_terms_)
-    add(particle.morph_terms, term.morph_weight, term.slot, sign * term.sum);
+void RestChange::finish() {
+  for (const RestTerm& term : particle_->terms) places_[term.slot] = kNone;
 }
 
 RestSums::RestSums(const TornModel& model, std::span<const Index> first_slot,

@@ -43,17 +43,25 @@ void for_each_rest_term(const TornModel& model, std::span<const Index> first_slo
   }
 }
 
-/// The terms of one vertex, to be added to particles or subtracted from them.
-class RestOfVertex {
+/// Adds the terms of vertices to particles or subtracts them, all vertices of a particle together:
+/// vertices of a cap may have a hundred influences, whose places in the particle are looked up
+/// once.
+class RestChange {
  public:
-  void set(const TornModel& model, std::span<const Index> first_slot, const VertexRef& of);
+  RestChange(const TornModel& model, std::span<const Index> first_slot)
+      : model_(model), first_slot_(first_slot) {}
+
+  /// Begins with a particle, which must not move before finish().
+  void begin(Particle& particle);
   /// @param sign  1 or -1.
-  void add_to(Particle& particle, double sign);
+  void add(const VertexRef& vertex, double sign);
+  void finish();
 
  private:
-  std::vector<RestTerm> terms_;
-  std::vector<RestMorphTerm> morph_terms_;
-  std::vector<std::size_t> places_;  ///< The place of each slot in the previous particle.
+  const TornModel& model_;
+  std::span<const Index> first_slot_;
+  Particle* particle_ = nullptr;
+  std::vector<Index> places_;  ///< Per slot: its place in the particle's terms, or kNone.
 };
 
 /// Sums the terms of particles' members.

@@ -24,15 +24,25 @@ std::unique_ptr<Structure> Structure::copy() const {
   made->points.make_room(points.count() + 1);
   made->points.for_each_column(
       points, [](auto& column, auto& of) { column.insert(column.end(), of.begin(), of.end()); });
-  reserve_eighth(made->points.memberships, points.memberships.size() + 1);
-  made->points.memberships.insert(made->points.memberships.end(), points.memberships.begin(),
-                                  points.memberships.end());
+  made->points.memberships = points.memberships;
   made->points.older_lips = points.older_lips;
   made->particles = particles;
   made->members = members;
   made->lips = lips;
   *made->gradients = *gradients;
   made->prepare_for_tears(tears.triangle_count);
+  return made;
+}
+
+std::unique_ptr<Structure> Structure::fork() const {
+  std::unique_ptr<Structure> made = copy();
+  made->points.memberships.shrink(points.memberships_end);
+  made->points.memberships_end = points.memberships_end;
+  made->journal = journal;
+  made->dirty.clear();
+  made->tears.done.resize(tears.done.size());
+  for (Change& change : made->tears.done) change.operation = Change::kUnnamed;
+  made->tears.is_broken = tears.is_broken;
   return made;
 }
 
@@ -50,7 +60,7 @@ void Structure::finish(Index triangles) {
 void Structure::prepare_for_tears(Index triangles) {
   finish(triangles);
   make_room(points.count() + 1);
-  reserve_eighth(points.memberships, points.ends.memberships + 1);
+  points.memberships.reserve(points.ends.memberships / 16);
   for (std::vector<Index>& of_mesh : vertex_points.of_mesh)
     reserve_eighth(of_mesh, of_mesh.size() + 1);
 }

@@ -74,6 +74,10 @@ struct Structure {
   /// A copy of a structure that no tear has changed, with scratch memory of its own.
   /// @throws std::bad_alloc
   [[nodiscard]] std::unique_ptr<Structure> copy() const;
+  /// A copy of any structure in which no stroke is in progress, to follow the next operation. Its
+  /// log has an empty entry for each operation that is done, and no work that is left.
+  /// @throws std::bad_alloc
+  [[nodiscard]] std::unique_ptr<Structure> fork() const;
   [[nodiscard]] std::size_t memory_bytes() const;
   /// Ends the decomposition.
   void finish(Index triangles);

@@ -84,11 +84,14 @@ void Check::lip_point(const LipPoint& of, const Counts& in) {
 }
 
 void Check::slab(const MembershipSlab& of, const Counts& in) {
-  const bool fits = std::size_t{of.first} + of.count <= in.ends.memberships;
+  const MembershipList& memberships = structure_.points.memberships;
+  const std::size_t end = std::size_t{of.first} + of.count;
+  const bool fits = end <= in.ends.memberships && (of.first >= memberships.decomposed_count() ||
+                                                   end <= memberships.decomposed_count());
   require(fits, "memberships of a point");
-  const std::vector<ParticleMembership>& memberships = structure_.points.memberships;
-  for (Index i = 0; fits && i < of.count; ++i)
-    require(memberships[of.first + i].particle < in.particles, "a membership of a point");
+  if (!fits) return;
+  for (const ParticleMembership& membership : memberships.at(of.first, of.count))
+    require(membership.particle < in.particles, "a membership of a point");
 }
 
 void Check::particle(const Particle& of, const Counts& in) {

@@ -109,14 +109,10 @@ Index StructureEdit::make_particle(Index seed, float range, const ParticleInflue
 /// both lists ascend.
 void StructureEdit::count_members(Index point, std::span<const ParticleMembership> before,
                                   std::span<const ParticleMembership> now) {
-  bool has_rest = false;
   const auto change = [&](Index particle, int sign) {
     Particle& of = change_particle(particle);
     of.member_count = static_cast<Index>(static_cast<std::int64_t>(of.member_count) + sign);
-    if (!has_rest)
-      rest_.set(model_, structure_.character.first_slots, structure_.points.vertices[point]);
-    has_rest = true;
-    rest_.add_to(of, sign);
+    counted_.push_back({particle, point, sign});
     if (sign > 0) structure_.members.joined[particle].push_back(point);
   };
   std::size_t b = 0, n = 0;
@@ -128,6 +124,21 @@ void StructureEdit::count_members(Index point, std::span<const ParticleMembershi
     else
       ++b, ++n;
   }
+}
+
+/// Brings the terms of particles up to date. Each sums its points in their order in the edit.
+void StructureEdit::sum_rests() {
+  std::stable_sort(counted_.begin(), counted_.end(),
+                   [](const Counted& a, const Counted& b) { return a.particle < b.particle; });
+  RestChange change(model_, structure_.character.first_slots);
+  for (auto of = counted_.begin(); of != counted_.end();) {
+    const Index particle = of->particle;
+    change.begin(structure_.particles[particle]);
+    for (; of != counted_.end() && of->particle == particle; ++of)
+      change.add(structure_.points.vertices[of->point], of->sign);
+    change.finish();
+  }
+  counted_.clear();
 }
 
 void StructureEdit::renew_influences(Index point, std::span<const ParticleMembership> now) {
@@ -159,14 +170,14 @@ void StructureEdit::put_back(const Work& work) {
   renew_influences(work.point, now);
   points.slabs[work.point] = {static_cast<Index>(points.memberships.size()),
                               static_cast<Index>(now.size())};
-  points.memberships.insert(points.memberships.end(), now.begin(), now.end());
+  points.memberships.append(now);
 }
 
 void StructureEdit::finish() {
-  auto& memberships = structure_.points.memberships;
-  if (memberships.capacity() < memberships.size() + memberships_.size())
-    memberships.reserve(memberships.size() + memberships_.size() + memberships.size() / 8);
+  MembershipList& memberships = structure_.points.memberships;
+  memberships.reserve(memberships_.size());
   for (const Work& work : works_) put_back(work);
+  sum_rests();
   structure_.pairs->apply([&](Index particle) -> Particle& { return change_particle(particle); });
   PointTable& points = structure_.points;
   change_.ends_after = points.ends = {memberships.size(), points.older_lips.size()};

@@ -73,11 +73,17 @@ class StructureEdit {
     Index point = 0;
     Index first = 0, count = 0, room = 0;
   };
+  /// A point that a particle gained or lost.
+  struct Counted {
+    Index particle, point;
+    int sign;
+  };
 
   Work& work_of(Index point);
   void put_back(const Work& work);
   void count_members(Index point, std::span<const ParticleMembership> before,
                      std::span<const ParticleMembership> now);
+  void sum_rests();
   void renew_influences(Index point, std::span<const ParticleMembership> now);
 
   const TornModel& model_;
@@ -90,7 +96,7 @@ class StructureEdit {
   RingWalk ring_, other_ring_;
   std::vector<Work> works_;
   std::vector<ParticleMembership> memberships_;
-  RestOfVertex rest_;
+  std::vector<Counted> counted_;
 };
 
 }  // namespace sunder::particles

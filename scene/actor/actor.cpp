@@ -51,13 +51,18 @@ Status Actor::set_pose(const ModelPose& pose) {
 /// Gives back the workspace of a model that nobody tears any more. Soft tissue that is awake reads
 /// it in each step. It is optional: if it fails, the model stays as it is.
 void Actor::pack() {
-  if (is_packed_ || is_being_torn() || instance.needs_step()) return;
-  if (instance.body() != nullptr && is_busy()) return;
+  if (!may_pack()) return;
+  frame.did_model_work = true;
   is_packed_ = static_cast<bool>(instance.pack());
 }
 
+bool Actor::may_pack() const {
+  if (is_packed_ || instance.model() == nullptr || is_being_torn() || instance.needs_step())
+    return false;
+  return instance.body() == nullptr || !is_busy();
+}
+
 void Actor::fall_idle() noexcept {
-  pack();
   if (!has_new_pose_) pose_ = {};
   commands.clear();
 }
@@ -82,12 +87,13 @@ Status Actor::animate() {
   return playback_.sample(character, pose_);
 }
 
-void Actor::work_on_commands(Background& background) {
+void Actor::work_on_commands(const Frame& of) {
   if (!commands.has_waiting() && commands.background_count() == 0) return;
   const Stopwatch watch(frame.operations);
   const std::size_t before = commands.results().size();
-  commands.finish_background(instance);
-  commands.apply(pose(), instance, background);
+  frame.did_model_work =
+      commands.finish_background(instance, of.background, of.allowance.has_model_work);
+  commands.apply(pose(), instance, of.background);
   if (commands.results().size() == before) return;
   last_operation_ = now_;
   is_packed_ = false;
@@ -151,27 +157,37 @@ Status Actor::restore(const State& state) {
 }
 
 /// Chooses the level of detail, and lets it follow the pose of this frame.
-void Actor::show_level(Background& background) {
+void Actor::show_level(Background& background, bool may_change) {
   const Index wanted = is_being_torn() ? 0 : DetailLevels::wanted(*instance.asset(), screen_height);
+  if (wanted != 0 && wanted != levels_.shown() && !may_change) return levels_.postpone();
   const Index shown = levels_.prepare(wanted, instance, background);
   frame.was_switched = shown != levels_.shown();
   if (!frame.was_switched) return;
   if (pose_.model_from_bone.empty()) pose_ = this->shown().pose();
   levels_.show(shown);
+  frame.did_model_work = true;
+}
+
+void Actor::settle(Index points) {
+  if (points == 0 || !wants_settling()) return;
+  const Stopwatch watch(frame.settling);
+  frame.settled_points = points;
+  (void)shown().settle(points);
 }
 
 void Actor::update(const Frame& of) {
   frame = {};
   frame.was_waiting = !of.is_its_turn && !is_being_torn();
   frame.was_idle = !is_active();
+  if (frame.was_idle && of.allowance.has_model_work) pack();
   if (frame.was_waiting || frame.was_idle) return;
   const double seconds = of.now - now_;
   now_ = of.now;
   try {
-    frame.status = move(seconds, of.background);
+    frame.status = move(seconds, of);
     if (frame.status && is_visible_ && (shown().needs_draw() || frame.was_switched))
       draw(of.parallel_for);
-    pack();
+    if (of.allowance.has_model_work) pack();
   } catch (const std::system_error& error) {
     frame.status = Status::failure(StatusCode::limit_exceeded, kNone, "cannot start a thread: %s",
                                    error.what());
@@ -180,16 +196,17 @@ void Actor::update(const Frame& of) {
   }
 }
 
-Status Actor::move(double seconds, Background& background) {
+Status Actor::move(double seconds, const Frame& of) {
   {
     const Stopwatch watch(frame.animation);
     if (Status status = animate(); !status) return status;
   }
-  work_on_commands(background);
-  show_level(background);
+  work_on_commands(of);
+  show_level(of.background, of.allowance.has_model_work);
   if (!has_new_pose_ && !frame.was_switched && !shown().needs_step()) return {};
+  settle(of.allowance.settled_points);
   const Stopwatch watch(frame.tissue);
-  Status status = shown().advance(pose(), frame.was_switched ? 0 : seconds);
+  Status status = shown().advance(pose(), frame.was_switched ? 0 : seconds, 0);
   frame.was_advanced = static_cast<bool>(status);
   if (status) has_new_pose_ = false;
   return status;

@@ -19,8 +19,9 @@ struct ActorFrame {
   Status status;
   bool was_sampled = false, was_advanced = false, was_drawn = false;
   bool was_waiting = false, was_idle = false, was_switched = false;
-  Index vertices = 0;
-  double animation = 0, operations = 0, tissue = 0, drawing = 0;  ///< Microseconds.
+  bool did_model_work = false;
+  Index vertices = 0, settled_points = 0;
+  double animation = 0, operations = 0, settling = 0, tissue = 0, drawing = 0;  ///< Microseconds.
 };
 
 /// An instance in a scene: its character, what moves it, and what it still has to do.
@@ -33,12 +34,18 @@ class Actor {
         now_(now),
         last_operation_(now - kCalm) {}
 
+  /// The share of a budget; see FrameBudget.
+  struct Allowance {
+    Index settled_points = 0;
+    bool has_model_work = false;
+  };
   /// The inputs of a frame.
   struct Frame {
     double now;                ///< Time of the scene, seconds.
     bool is_its_turn = true;   ///< Otherwise it is updated only while it is being torn.
     ParallelFor parallel_for;  ///< For the vertices of this instance alone.
     Background& background;
+    const Allowance& allowance;
   };
   /// Runs as a task: touches nothing but this object.
   void update(const Frame& frame);
@@ -60,6 +67,19 @@ class Actor {
   [[nodiscard]] bool is_being_torn() const {
     return instance.is_in_stroke() || commands.has_waiting() || now_ < last_operation_ + kCalm;
   }
+
+  /// Whether there is optional work.
+  [[nodiscard]] bool wants_settling() const { return is_visible_ && shown().needs_settling(); }
+  /// The same after the commands of an update.
+  [[nodiscard]] bool may_want_settling() const {
+    return wants_settling() || commands.has_waiting() || commands.background_count() > 0;
+  }
+  [[nodiscard]] bool wants_model_work() const {
+    return commands.has_refits() || levels_.is_changing() || may_pack();
+  }
+
+  /// Whether the workspace of a model that nobody tears any more can be given back.
+  [[nodiscard]] bool may_pack() const;
 
   /// Somebody may make calls on the instance.
   void touch() { is_packed_ = false; }
@@ -99,6 +119,7 @@ class Actor {
   CharacterInstance instance;  ///< The finest level, which operations tear.
   double screen_height = std::numeric_limits<double>::infinity();
   ActorCommands commands;
+  Allowance allowance;     ///< Of the update in progress.
   ActorFrame frame;        ///< The last update.
   bool is_listed = false;  ///< Whether it is in the list of active instances.
   bool is_hidden = false;  ///< Whether it would be, if it were visible.
@@ -112,11 +133,12 @@ class Actor {
     return pose_.model_from_bone.empty() ? shown().pose() : pose_;
   }
   Status animate();
-  Status move(double seconds, Background& background);
-  void work_on_commands(Background& background);
+  Status move(double seconds, const Frame& frame);
+  void work_on_commands(const Frame& frame);
   void note_origin();
   void pack();
-  void show_level(Background& background);
+  void settle(Index points);
+  void show_level(Background& background, bool may_change);
   void draw(const ParallelFor& parallel_for);
 
   Playback playback_;

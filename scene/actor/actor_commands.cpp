@@ -8,10 +8,20 @@
 namespace sunder::scene {
 namespace {
 
+/// Whether a command belongs to a stroke.
+bool is_of_stroke(const SceneCommand& command) {
+  return std::holds_alternative<BeginStrokeCommand>(command) ||
+         std::holds_alternative<ExtendStrokeCommand>(command) ||
+         std::holds_alternative<EndStrokeCommand>(command) ||
+         std::holds_alternative<CancelStrokeCommand>(command);
+}
+
+/// Lets the background run a job.
 template <class Job>
-bool is_finished(const Job& job) {
-  const typename Job::State state = job.poll();
-  return state != Job::State::waiting && state != Job::State::running;
+std::shared_ptr<OnceJob> begin(const Job& job, Background& background) {
+  auto once = std::make_shared<OnceJob>([job] { job.run(); });
+  background.start([once] { once->run(); });
+  return once;
 }
 
 Result<TearReport> report_of(Result<WeightReport> weights) {
@@ -38,6 +48,17 @@ void ActorCommands::conclude(const QueuedCommand& queued, Result<TearReport> rep
     result.status = report.error();
 }
 
+Status ActorCommands::start_operation(RunningOperation& operation, CharacterInstance& instance,
+                                      Background& background) {
+  Result<OperationJob> job = instance.begin_operation(operation.operation);
+  if (!job) return job.error();
+  operation.in_background.job = begin(*job, background);
+  operation.in_background.time = background.swap_time();
+  operation.job = std::move(*job);
+  operation.is_outdated = false;
+  return {};
+}
+
 Status ActorCommands::start(const QueuedCommand& queued, const ModelPose& pose,
                             CharacterInstance& instance, Background& background) {
   const auto* const weights = std::get_if<WeightsOperation>(&queued.command);
@@ -45,19 +66,18 @@ Status ActorCommands::start(const QueuedCommand& queued, const ModelPose& pose,
     if (weights != nullptr && weights->weights.policy == WeightPolicy::refit) {
       Result<RefitJob> job = instance.begin_refit(*weights);
       if (!job) return job.error();
-      refits_.push_back({queued, *job});
-      background.start([job = *job] { job.run(); });
+      refits_.push_back({{queued, begin(*job, background), background.swap_time()}, *job});
       return {};
     }
-    const std::optional<Operation> operation = operation_of(queued.command, pose);
+    std::optional<Operation> operation = operation_of(queued.command, pose);
     if (!operation)
       return Status::failure(StatusCode::invalid_argument, kNone,
                              "commands of strokes, undo and redo do not run in the background");
-    Result<OperationJob> job = instance.begin_operation(*operation);
-    if (!job) return job.error();
-    background.start([job = *job] { job.run(); });
-    operation_.emplace(InBackground<OperationJob>{queued, *job});
-    return {};
+    RunningOperation running = {
+        {queued, nullptr, background.swap_time()}, std::move(*operation), {}, false};
+    Status status = start_operation(running, instance, background);
+    if (status) operation_.emplace(std::move(running));
+    return status;
   } catch (const std::system_error& error) {
     return Status::failure(StatusCode::limit_exceeded, kNone, "cannot start a thread: %s",
                            error.what());
@@ -67,57 +87,76 @@ Status ActorCommands::start(const QueuedCommand& queued, const ModelPose& pose,
 void ActorCommands::apply(const ModelPose& pose, CharacterInstance& instance,
                           Background& background) {
   std::size_t next = 0;
-  for (; next < waiting_.size() && !operation_; ++next) {
+  for (; next < waiting_.size(); ++next) {
     const QueuedCommand& queued = waiting_[next];
+    if (operation_) {
+      if (!is_of_stroke(queued.command) || queued.options.in_background) break;
+      operation_->is_outdated = true;
+    }
     if (queued.options.in_background) {
       if (const Status status = start(queued, pose, instance, background); !status)
         conclude(queued, status);
       continue;
     }
     std::vector<ChangeRecord> changes;
-    std::shared_ptr<const DetachedPiece> piece;
+    DetachedParts detached;
     conclude(queued, apply_command(queued.command, pose, instance,
-                                   queued.options.wants_changes ? &changes : nullptr, piece));
+                                   queued.options.wants_changes ? &changes : nullptr, detached));
     results_.back().changes = std::move(changes);
-    results_.back().piece = std::move(piece);
+    results_.back().piece = std::move(detached.piece);
+    results_.back().tissue = std::move(detached.tissue);
   }
   waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(next));
 }
 
-void ActorCommands::finish_operation(CharacterInstance& instance) {
-  if (!operation_ || !is_finished(operation_->job)) return;
+void ActorCommands::finish_operation(CharacterInstance& instance, Background& background) {
+  if (!operation_) return;
+  const QueuedCommand& queued = operation_->in_background.queued;
+  if (operation_->is_outdated) {
+    if (instance.is_in_stroke()) return;
+    if (Status status = start_operation(*operation_, instance, background); !status) {
+      conclude(queued, status);
+      operation_.reset();
+    }
+    return;
+  }
+  if (!operation_->in_background.time.has_come(*operation_->in_background.job)) return;
   ChangeRecord change;
-  const OperationJob& job = operation_->job;
-  const bool is_done = job.poll() == OperationJob::State::done;
-  conclude(operation_->queued,
-           is_done ? instance.swap_in(job, &change) : Result<TearReport>(job.failure()));
-  if (is_done && operation_->queued.options.wants_changes)
+  conclude(queued, instance.swap_in(*operation_->job, &change));
+  if (results_.back().status && queued.options.wants_changes)
     results_.back().changes.push_back(std::move(change));
+  // To free the replica takes time too.
+  background.start(
+      [job = std::move(operation_->job), once = std::move(operation_->in_background.job)] {});
   operation_.reset();
 }
 
-void ActorCommands::finish_refits(CharacterInstance& instance) {
+bool ActorCommands::finish_refits(CharacterInstance& instance) {
   for (auto refit = refits_.begin(); refit != refits_.end(); ++refit) {
-    if (!is_finished(refit->job)) continue;
+    if (!refit->in_background.time.has_come(*refit->in_background.job)) continue;
+    const QueuedCommand& queued = refit->in_background.queued;
     ChangeRecord change;
-    conclude(refit->queued, refit->job.poll() == RefitJob::State::failed
-                                ? Result<TearReport>(refit->job.failure())
-                                : report_of(instance.swap_in(refit->job, &change)));
-    if (refit->queued.options.wants_changes) results_.back().changes.push_back(std::move(change));
+    conclude(queued, refit->job.poll() == RefitJob::State::failed
+                         ? Result<TearReport>(refit->job.failure())
+                         : report_of(instance.swap_in(refit->job, &change)));
+    if (queued.options.wants_changes) results_.back().changes.push_back(std::move(change));
     refits_.erase(refit);
-    return;  // one per update
+    return true;  // one per update
   }
+  return false;
 }
 
 void ActorCommands::abandon(const Status& why) {
-  if (operation_) conclude(operation_->queued, why);
-  for (const auto& refit : refits_) conclude(refit.queued, why);
+  if (operation_) conclude(operation_->in_background.queued, why);
+  for (const RunningRefit& refit : refits_) conclude(refit.in_background.queued, why);
   for (const QueuedCommand& queued : waiting_) conclude(queued, why);
 }
 
-void ActorCommands::finish_background(CharacterInstance& instance) {
-  finish_operation(instance);
-  if (waiting_.empty() && !instance.is_in_stroke()) finish_refits(instance);
+bool ActorCommands::finish_background(CharacterInstance& instance, Background& background,
+                                      bool may_refit) {
+  finish_operation(instance, background);
+  return may_refit && waiting_.empty() && !operation_ && !instance.is_in_stroke() &&
+         finish_refits(instance);
 }
 
 }  // namespace sunder::scene

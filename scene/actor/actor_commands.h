@@ -2,11 +2,13 @@
 
 #include <sunder/scene/character_instance.h>
 
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "scene/actor/command_queue.h"
 #include "scene/threads/background.h"
+#include "scene/threads/once_job.h"
 
 namespace sunder::scene {
 
@@ -15,17 +17,20 @@ namespace sunder::scene {
 class ActorCommands {
  public:
   void push(QueuedCommand&& queued) { waiting_.push_back(std::move(queued)); }
-  /// Applies the waiting commands in order, up to one that waits for the background.
+  /// Applies the waiting commands in order, up to one that waits for the background. Those of
+  /// strokes do not wait; what runs in the background is done again after them.
   void apply(const ModelPose& pose, CharacterInstance& instance, Background& background);
   /// Swaps in what finished in the background. A refit waits while other commands do, so that a
-  /// frame that tears does no more than that.
-  void finish_background(CharacterInstance& instance);
+  /// frame that tears does no more than that, and unless it may be swapped in.
+  /// @return whether one was.
+  bool finish_background(CharacterInstance& instance, Background& background, bool may_refit);
 
   /// Whether there are commands that wait.
   [[nodiscard]] bool has_waiting() const { return !waiting_.empty(); }
   [[nodiscard]] Index background_count() const {
     return static_cast<Index>(refits_.size()) + (operation_ ? 1 : 0);
   }
+  [[nodiscard]] bool has_refits() const { return !refits_.empty(); }
   /// Results of the last update, to be taken.
   [[nodiscard]] std::vector<CommandResult>& results() { return results_; }
   /// Ends all commands that are not done. @throws std::bad_alloc
@@ -36,21 +41,33 @@ class ActorCommands {
   }
 
  private:
-  template <class Job>
   struct InBackground {
     QueuedCommand queued;
-    Job job;
+    std::shared_ptr<OnceJob> job;
+    SwapTime time;
+  };
+  struct RunningOperation {
+    InBackground in_background;
+    Operation operation;  ///< In the pose of the update that took it.
+    std::optional<OperationJob> job;
+    bool is_outdated = false;  ///< Whether a stroke has changed the instance since.
+  };
+  struct RunningRefit {
+    InBackground in_background;
+    RefitJob job;
   };
   CommandResult& add_result(const QueuedCommand& queued);
   void conclude(const QueuedCommand& queued, Result<TearReport> report);
   Status start(const QueuedCommand& queued, const ModelPose& pose, CharacterInstance& instance,
                Background& background);
-  void finish_operation(CharacterInstance& instance);
-  void finish_refits(CharacterInstance& instance);
+  Status start_operation(RunningOperation& operation, CharacterInstance& instance,
+                         Background& background);
+  void finish_operation(CharacterInstance& instance, Background& background);
+  bool finish_refits(CharacterInstance& instance);
 
   std::vector<QueuedCommand> waiting_;
-  std::optional<InBackground<OperationJob>> operation_;
-  std::vector<InBackground<RefitJob>> refits_;
+  std::optional<RunningOperation> operation_;
+  std::vector<RunningRefit> refits_;
   std::vector<CommandResult> results_;
 };
 

@@ -7,7 +7,7 @@ namespace {
 class CommandCalls {
  public:
   CommandCalls(CharacterInstance& instance, const ModelPose& pose,
-               std::vector<ChangeRecord>* changes, std::shared_ptr<const DetachedPiece>& piece)
+               std::vector<ChangeRecord>* changes, DetachedParts& piece)
       : instance_(instance), pose_(pose), changes_(changes), piece_(piece) {}
 
   Result<TearReport> operator()(const TearCommand& of) {
@@ -26,10 +26,13 @@ class CommandCalls {
     return report_of(instance_.cancel_stroke(record()));
   }
   Result<TearReport> operator()(const DetachCommand& of) {
-    Result<DetachedPiece> piece = instance_.detach(pose_, of.piece, of.options, record());
+    PieceTissue tissue;
+    Result<DetachedPiece> piece = instance_.detach(pose_, of.piece, of.options, record(), &tissue);
     if (!piece) return piece.error();
-    piece_ = std::make_shared<const DetachedPiece>(std::move(*piece));
-    return piece_->report;
+    piece_.piece = std::make_shared<const DetachedPiece>(std::move(*piece));
+    if (instance_.body() != nullptr)
+      piece_.tissue = std::make_shared<const PieceTissue>(std::move(tissue));
+    return piece_.piece->report;
   }
   Result<TearReport> operator()(const UndoCommand&) { return report_of(instance_.undo(record())); }
   Result<TearReport> operator()(const RedoCommand&) { return report_of(instance_.redo(record())); }
@@ -46,14 +49,14 @@ class CommandCalls {
   CharacterInstance& instance_;
   const ModelPose& pose_;
   std::vector<ChangeRecord>* changes_;
-  std::shared_ptr<const DetachedPiece>& piece_;
+  DetachedParts& piece_;
 };
 
 }  // namespace
 
 Result<TearReport> apply_command(const SceneCommand& command, const ModelPose& pose,
                                  CharacterInstance& instance, std::vector<ChangeRecord>* changes,
-                                 std::shared_ptr<const DetachedPiece>& piece) {
+                                 DetachedParts& piece) {
   return std::visit(CommandCalls(instance, pose, changes, piece), command);
 }
 

@@ -7,13 +7,19 @@
 
 namespace sunder::scene {
 
+/// The results of a DetachCommand.
+struct DetachedParts {
+  std::shared_ptr<const DetachedPiece> piece;
+  std::shared_ptr<const PieceTissue> tissue;
+};
+
 /// Applies a command to an instance in a pose. @param changes  optional; records are appended.
 /// @throws std::bad_alloc
 /// @param piece  written by a DetachCommand.
 [[nodiscard]] Result<TearReport> apply_command(const SceneCommand& command, const ModelPose& pose,
                                                CharacterInstance& instance,
                                                std::vector<ChangeRecord>* changes,
-                                               std::shared_ptr<const DetachedPiece>& piece);
+                                               DetachedParts& piece);
 
 /// A command as an operation that runs in the background; none for a command that is about a stroke
 /// or the history. @throws std::bad_alloc

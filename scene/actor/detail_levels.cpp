@@ -3,9 +3,8 @@
 namespace sunder::scene {
 namespace {
 
-/// Wounds open for so many steps before a level is shown.
-constexpr int kSettlingSteps = 60;
-constexpr double kSettlingSeconds = 1.0 / 60;
+/// Particles next to lips separate in so many points at once; nobody waits for it.
+constexpr std::uint32_t kSettledPoints = 10'000;
 
 const std::shared_ptr<const CharacterAsset>& asset_of(const CharacterInstance& finest,
                                                       Index level) {
@@ -31,9 +30,13 @@ void DetailLevels::Job::run() {
   Result<CharacterInstance> instance = CharacterInstance::create(asset);
   if (!instance) return;
   for (const Operation& operation : history) (void)instance->apply(operation);
-  if (!history.empty() && asset->options().soft)
-    for (int i = 0; i < kSettlingSteps; ++i)
-      if (!instance->advance(pose, kSettlingSeconds)) return;
+  if (!tissue.places.empty() && asset->options().soft) {
+    if (!instance->prepare_to_tear()) return;
+    while (instance->settle(kSettledPoints)) {
+    }
+    if (!instance->advance(pose, 0)) return;
+    tissue.give_to(*instance, pose);
+  }
   made = std::make_unique<CharacterInstance>(std::move(*instance));
 }
 
@@ -42,20 +45,22 @@ void DetailLevels::start(Level& level, Index number, const State& state, Charact
   auto job = std::make_shared<Job>();
   job->asset = asset_of(finest, number);
   job->pose = finest.pose();
+  job->tissue = LevelTissue::of(finest, job->pose);
   job->state = state;
   if (const TornModel* const model = finest.model()) {
     Result<std::vector<Operation>> history = model->history();
     if (!history) throw std::bad_alloc();
     job->history = std::move(*history);
   }
-  background.start([job] {
+  level.once = std::make_shared<OnceJob>([job] {
     try {
       job->run();
     } catch (const std::bad_alloc&) {
       // The level stays as it is; the next update starts again.
     }
-    job->is_done = true;
   });
+  background.start([once = level.once] { once->run(); });
+  level.time = background.swap_time();
   level.job = std::move(job);
 }
 
@@ -64,7 +69,7 @@ Index DetailLevels::prepare(Index wanted, CharacterInstance& finest, Background&
   if (wanted == 0) return 0;
   if (levels_.size() < wanted) levels_.resize(wanted);
   Level& level = levels_[wanted - 1];
-  if (level.job && level.job->is_done) {
+  if (level.job && level.time.has_come(*level.once)) {
     if (level.job->made) {
       level.instance = std::move(level.job->made);
       level.state = level.job->state;

@@ -2,10 +2,10 @@
 
 #include <sunder/scene/character_instance.h>
 
-#include <atomic>
 #include <memory>
 #include <vector>
 
+#include "scene/actor/level_tissue.h"
 #include "scene/threads/background.h"
 
 namespace sunder::scene {
@@ -24,6 +24,8 @@ class DetailLevels {
   /// Whether the level that was wanted last is not shown yet, or not up to date.
   [[nodiscard]] bool is_changing() const { return is_changing_; }
   void show(Index level) { shown_ = level; }
+  /// Another level is wanted, but not prepared in this update.
+  void postpone() { is_changing_ = true; }
   /// The instance of a level from 1 on.
   [[nodiscard]] CharacterInstance& at(Index level) { return *levels_[level - 1].instance; }
   [[nodiscard]] const CharacterInstance& at(Index level) const {
@@ -42,15 +44,17 @@ class DetailLevels {
     std::shared_ptr<const CharacterAsset> asset;
     std::vector<Operation> history;
     ModelPose pose;
+    LevelTissue tissue;  ///< Of the finest level when the job began.
     State state;
     std::unique_ptr<CharacterInstance> made;  ///< Null if it failed.
-    std::atomic<bool> is_done = false;
     void run();
   };
   struct Level {
     std::unique_ptr<CharacterInstance> instance;
     State state;
-    std::shared_ptr<Job> job;
+    std::shared_ptr<Job> job;  ///< Null: none is under way.
+    std::shared_ptr<OnceJob> once;
+    SwapTime time = SwapTime(0);
   };
   void start(Level& level, Index number, const State& state, CharacterInstance& finest,
              Background& background);

@@ -11,6 +11,13 @@ void make_room_for_one(std::vector<Index>& values) {
   if (values.size() == values.capacity()) values.reserve(2 * values.size() + 32);
 }
 
+/// A frame that tears adds little to what earlier ones logged, which must not be copied each time.
+template <class T>
+void make_room(std::size_t more, std::vector<T>& values) {
+  const std::size_t count = values.size() + more;
+  if (values.capacity() < count) values.reserve(count + count / 2);
+}
+
 }  // namespace
 
 void DrawTriangles::note(const MeshChange& change) noexcept {
@@ -34,7 +41,7 @@ void DrawTriangles::shrink(const Mesh& mesh) {
 }
 
 void DrawTriangles::grow(Chunk& chunk, const Mesh& mesh) {
-  log_.reserve(log_.size() + chunk.triangles.size());  // nothing fails below
+  make_room(chunk.triangles.size(), log_);  // nothing fails below
   chunk.capacity = std::max<Index>(32, 2 * chunk.capacity);
   chunk.first = end_;
   end_ += chunk.capacity;
@@ -65,7 +72,7 @@ void DrawTriangles::update(const Mesh& mesh, std::uint64_t epoch) {
   if (first_appended_ == kNone && noted_.empty() && !lost_count_) return;
   is_torn_ = true;
   shorten_log();
-  epochs_.reserve(epochs_.size() + 1);
+  make_room(1, epochs_);
   const std::size_t first = log_.size();
   if (epochs_.empty() || epochs_.back().epoch != epoch) epochs_.push_back({epoch, first});
   shrink(mesh);
@@ -74,7 +81,7 @@ void DrawTriangles::update(const Mesh& mesh, std::uint64_t epoch) {
     noted_.resize(mesh.triangle_count());
     std::iota(noted_.begin(), noted_.end(), 0u);
   }
-  log_.reserve(log_.size() + noted_.size());
+  make_room(noted_.size(), log_);
   for (const Index triangle : noted_)
     if (triangle < mesh.triangle_count()) log(triangle, mesh);
   list_ranges(mesh);

@@ -109,6 +109,32 @@ void InstanceMesh::set_target(const VertexTarget& target) {
   writes_all_ = true;
 }
 
+Result<PreparedTail> PreparedTail::create(const AssetMesh& asset, Index source_count,
+                                          const Mesh& mesh, const InfluencePositions& exact) {
+  TornTail source(source_count);
+  source.update(mesh, exact, source_count);
+  Result<SkinnedMesh> skinned = SkinnedMesh::create(source.source(mesh), asset.slots);
+  if (!skinned) return skinned.error();
+  return PreparedTail{std::move(source), std::move(*skinned)};
+}
+
+void InstanceMesh::adopt(PreparedTail&& tail) noexcept {
+  tail_source_ = std::move(tail.source);
+  set_tail(std::move(tail.skinned));
+  first_changed_ = kNone;
+}
+
+/// Vertices that a detachment released stay released.
+void InstanceMesh::set_tail(SkinnedMesh&& tail) noexcept {
+  if (tail_) {
+    *tail_ = std::move(tail);
+    return;
+  }
+  tail_.emplace(std::move(tail));
+  tail_buffer_ = PosedBuffer(VertexTarget());
+  writes_all_ = true;
+}
+
 Status InstanceMesh::resize(Index vertex_count) {
   const VertexTarget before = target_;
   if (has_target_) {
@@ -154,9 +180,7 @@ Status InstanceMesh::update_vertices(const Mesh& mesh, const InfluencePositions*
     } else {
       Result<SkinnedMesh> made = SkinnedMesh::create(tail_source_.source(mesh), asset_->slots);
       if (!made) return made.error();
-      tail_.emplace(std::move(*made));
-      tail_buffer_ = PosedBuffer(VertexTarget());
-      writes_all_ = true;
+      set_tail(std::move(*made));
     }
   }
   if (Status status = resize(mesh.vertex_count()); !status) return status;

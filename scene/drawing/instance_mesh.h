@@ -15,6 +15,17 @@
 
 namespace sunder::scene {
 
+/// The skinning data of the vertices that tears appended to a mesh.
+struct PreparedTail {
+  TornTail source;
+  SkinnedMesh skinned;
+
+  /// Reads all of a mesh that has appended vertices. @throws std::bad_alloc
+  [[nodiscard]] static Result<PreparedTail> create(const AssetMesh& asset, Index source_count,
+                                                   const Mesh& mesh,
+                                                   const InfluencePositions& exact);
+};
+
 /// One mesh of a CharacterInstance: the posed vertices that are drawn. Vertices of the source are
 /// skinned by the data of the asset, appended ones by data of the instance.
 class InstanceMesh {
@@ -34,6 +45,8 @@ class InstanceMesh {
   void note(const MeshChange& change, std::uint64_t epoch) noexcept;
   /// Notes all differences of a torn mesh from its source. @throws std::bad_alloc
   void note_all(const Mesh& source, const Mesh& mesh, std::uint64_t epoch);
+  /// Takes the data that update() would make of all changes that were noted. O(1).
+  void adopt(PreparedTail&& tail) noexcept;
   void set_target(const VertexTarget& target);
 
   /// Whether update() has to be called before draw().
@@ -70,6 +83,7 @@ class InstanceMesh {
     bool is_released;
     std::vector<Index> vertices;
   };
+  void set_tail(SkinnedMesh&& tail) noexcept;
   Status apply_releases();
   Status set_released(const Release& release, bool is_tail);
   Status update_vertices(const Mesh& mesh, const InfluencePositions* exact);

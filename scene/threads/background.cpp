@@ -1,5 +1,7 @@
 #include "scene/threads/background.h"
 
+#include <sunder/core/memory_scope.h>
+
 #include <utility>
 
 namespace sunder::scene {
@@ -13,7 +15,11 @@ Background::~Background() {
   if (thread_.joinable()) thread_.join();
 }
 
-void Background::start(std::function<void()> job) {
+void Background::start(std::function<void()> work) {
+  std::function<void()> job = [work = std::move(work), memory = MemoryScope::current()] {
+    const MemoryScope scope(memory);
+    work();
+  };
   if (hook_.run != nullptr) {
     auto held = std::make_unique<std::function<void()>>(std::move(job));
     const auto run = [](void* data) {
@@ -36,10 +42,11 @@ void Background::serve() {
   for (;;) {
     is_called_.wait(lock, [this] { return is_stopping_ || !jobs_.empty(); });
     if (is_stopping_) return;
-    const std::function<void()> job = std::move(jobs_.front());
+    std::function<void()> job = std::move(jobs_.front());
     jobs_.pop_front();
     lock.unlock();
     job();
+    job = nullptr;  // what it held may take time to free
     lock.lock();
   }
 }

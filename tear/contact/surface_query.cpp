@@ -69,6 +69,7 @@ Status check_capsule(const Capsule& capsule) {
 struct SurfaceQuery::State {
   const TornModel* model = nullptr;
   std::shared_ptr<const Character> source;  ///< Of the trees.
+  std::shared_ptr<const TornAsset> asset;   ///< Keeps them.
   tear::PosedPoints posed;
   std::optional<tear::PosedSurface> surface;
   Revision revision;
@@ -92,15 +93,22 @@ struct SurfaceQuery::State {
     if (!reach) return reach.error();
     surface.reset();  // nothing fails from here on, unless memory runs out
     if (source != of_model.source || revision.editor != &of_model.editor) {
-      posed = tear::PosedPoints();
-      source = of_model.source;
-      revision = {};
+      use_trees();
     }
     if (Status status = posed.begin(of_model.character, pose); !status) return status;
     interpolates_normals = options.interpolates_normals;
     surface.emplace(of_model.editor, posed).set_options(options, *reach);
     revision = revision_of(*model);
     return {};
+  }
+
+  /// Starts with the trees of the model's asset. Only walls and caps get trees of the query.
+  void use_trees() {
+    posed = tear::PosedPoints();
+    source = tear::ModelAccess::state_of(*model).source;
+    asset = tear::ModelAccess::asset_of(*model);
+    posed.forest().share(tear::ModelAccess::trees_of(*model));
+    revision = {};
   }
 
   /// Runs a search, whose memory may not suffice.
@@ -142,7 +150,7 @@ Result<SurfaceQuery> SurfaceQuery::create(const TornModel& model) {
     state->model = &model;
     if (Status status = model.unpack(); !status) return status;
     auto& of_model = tear::ModelAccess::state_of(model);
-    state->source = of_model.source;
+    state->use_trees();
     state->revision.editor = &of_model.editor;
     (void)state->posed.forest().trees(of_model.editor);
     return SurfaceQuery(std::move(state));

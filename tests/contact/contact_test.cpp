@@ -619,5 +619,25 @@ TEST_F(ContactUse, a_query_does_not_allocate_once_warm_and_leaves_the_model_alon
   EXPECT_GT(of_tube.memory_bytes(), 1000u);
 }
 
+TEST_F(ContactUse, queries_share_the_trees_of_their_asset) {
+  const auto character = std::make_shared<const Character>(test::make_bumpy_ball(20'000));
+  const auto asset = *TornAsset::create(character);
+  const TornModel one = std::move(*TornModel::create(asset)),
+                  other = std::move(*TornModel::create(asset));
+  auto of_one = *SurfaceQuery::create(one);
+  ASSERT_TRUE(other.unpack());
+  const std::uint64_t before = test::live_bytes();
+  auto of_other = *SurfaceQuery::create(other);
+  if (before > 0) {  // it is counted
+    EXPECT_LT(test::live_bytes() - before, asset->memory_bytes().shared / 10);
+  }
+  for (SurfaceQuery* query : {&of_one, &of_other})
+    ASSERT_TRUE(query->set_pose(*bind_pose(*character)));
+  const auto wanted = *of_one.find_nearest({2, 1, 0.5}),
+             found = *of_other.find_nearest({2, 1, 0.5});
+  ASSERT_TRUE(wanted && found);
+  EXPECT_EQ(wanted->place, found->place);
+}
+
 }  // namespace
 }  // namespace sunder

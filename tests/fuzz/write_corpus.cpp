@@ -1,4 +1,5 @@
-// Writes the seeds of the targets `glb` and `import_reply`: write_fuzz_corpus tests/fuzz/corpus
+// Writes the seeds of the targets `glb`, `import_reply` and `snapshot`: write_fuzz_corpus
+// tests/fuzz/corpus
 
 #include <cstdint>
 #include <cstdio>
@@ -7,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "fuzz/snapshot_scene.h"
 #include "io/faulty_documents.h"
 #include "io/import_messages/reply.h"
 #include "support/gltf_builder.h"
@@ -40,6 +42,13 @@ void write_replies(const std::string& folder) {
   write(folder + "failure.reply", reply(import_messages::encode_head(failure, {}), {}));
 }
 
+void write_snapshots(const std::string& folder) {
+  using namespace sunder;
+  const auto asset = fuzz::make_snapshot_asset();
+  write(folder + "empty.snapshot", *fuzz::make_scene().save());
+  write(folder + "torn.snapshot", *fuzz::make_torn_scene(asset).save());
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
@@ -49,6 +58,7 @@ int main(int count, char** arguments) {
   }
   const std::string corpus = std::string(arguments[1]) + "/", folder = corpus + "glb/";
   write_replies(corpus + "import_reply/");
+  write_snapshots(corpus + "snapshot/");
   write(folder + "strip.glb", sunder::test::skinned_strip().glb());
   // One of each kind of part: lines, an animation, a material with a texture, a matrix.
   for (const sunder::test::FaultyDocument& document : sunder::test::faulty_documents())

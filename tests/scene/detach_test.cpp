@@ -1,8 +1,10 @@
 // A soft instance loses a piece: its particles and vertices go, and come back by undo.
 #include <sunder/scene/character_instance.h>
+#include <sunder/scene/scene_command.h>
 #include <sunder/skinning/pose.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <set>
 #include <vector>
@@ -139,6 +141,73 @@ TEST(DetachFromInstance, particles_of_the_piece_vanish) {
   const auto rest = rest_pose(*piece->character);
   for (int i = 0; i < 5; ++i) ASSERT_TRUE(soft.advance(*rest, 0.01));
   EXPECT_GT(count_used(*soft.particles()), 0u);
+}
+
+/// The root of the mean square.
+double magnitude(const std::vector<Vec3d>& vectors) {
+  double sum = 0;
+  for (const Vec3d& vector : vectors) sum += vector.squaredNorm();
+  return std::sqrt(sum / static_cast<double>(vectors.size()));
+}
+
+TEST(DetachFromInstance, a_piece_keeps_the_motion_of_its_tissue) {
+  for (const PieceMotion motion : {PieceMotion::animated, PieceMotion::frozen}) {
+    Case scene(true);
+    for (int i = 0; i < 5; ++i) ASSERT_TRUE(scene.instance.advance(scene.pose, 0.01));
+    const PieceNear place = scene.cut_off();
+    ASSERT_TRUE(scene.instance.advance(scene.pose, 0.01));
+    SoftBody& body = *scene.instance.body();
+    for (std::uint32_t p = 0; p < body.particle_count(); ++p)
+      ASSERT_TRUE(body.add_impulse(p, {0.01, 0.02, 0}));
+    for (int i = 0; i < 3; ++i) ASSERT_TRUE(scene.instance.advance(scene.pose, 0.01));
+
+    PieceTissue tissue;
+    DetachOptions options;
+    options.motion = motion;
+    const auto piece = scene.instance.detach(scene.pose, place, options, nullptr, &tissue);
+    ASSERT_TRUE(piece) << piece.error().text();
+    ASSERT_EQ(tissue.points.size(), tissue.motions.size());
+    ASSERT_FALSE(tissue.points.empty());
+    CharacterInstance detached = Case::make(piece->character, true);
+    ASSERT_TRUE(detached.inherit_motion(*piece, tissue));
+
+    std::vector<Vec3d> wanted, missing, wanted_velocities, missing_velocities;
+    const auto points = detached.particles()->vertex_points(0);
+    const std::vector<Triangle>& triangles = piece->character->meshes[0].triangles;
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+      for (std::size_t corner = 0; corner < 3; ++corner) {
+        const std::uint32_t old_point = piece->meshes[0].old_points[t][corner];
+        const auto at = std::lower_bound(tissue.points.begin(), tissue.points.end(), old_point);
+        ASSERT_TRUE(at != tissue.points.end() && *at == old_point);
+        const PointMotion& of =
+            tissue.motions[static_cast<std::size_t>(at - tissue.points.begin())];
+        if (!of.is_known) continue;
+        const std::uint32_t point = points[triangles[t][corner]];
+        wanted.push_back(of.displacement);
+        missing.push_back(of.displacement - detached.body()->point_displacement(point));
+        wanted_velocities.push_back(of.velocity);
+        missing_velocities.push_back(of.velocity - detached.body()->point_velocity(point));
+      }
+    ASSERT_GT(magnitude(wanted), 0);
+    ASSERT_GT(magnitude(wanted_velocities), 0);
+    EXPECT_LT(magnitude(missing), 0.2 * magnitude(wanted));
+    EXPECT_LT(magnitude(missing_velocities), 0.2 * magnitude(wanted_velocities));
+    // It goes on moving.
+    ASSERT_TRUE(detached.advance(*rest_pose(*piece->character), 0.01));
+    EXPECT_TRUE(detached.needs_step());
+  }
+}
+
+TEST(DetachFromInstance, a_hard_piece_has_no_motion_of_tissue) {
+  Case scene(false);
+  PieceTissue tissue;
+  tissue.points = {1};
+  const PieceNear place = scene.cut_off();
+  const auto piece = scene.instance.detach(scene.pose, place, {}, nullptr, &tissue);
+  ASSERT_TRUE(piece);
+  EXPECT_TRUE(tissue.points.empty());
+  CharacterInstance detached = Case::make(piece->character, false);
+  EXPECT_EQ(detached.inherit_motion(*piece, tissue).code(), StatusCode::invalid_argument);
 }
 
 }  // namespace

@@ -186,6 +186,10 @@ class SUNDER_API ParticleSet {
   ///         create a new set. limit_exceeded if out of memory: see is_broken().
   Status follow(const TornModel& model, std::span<const ChangeRecord> changes);
 
+  /// Copies what the set shares with others now, which the first follow() of a tear would do
+  /// otherwise. O(points + memberships), once. @return limit_exceeded: out of memory.
+  Status prepare_to_follow();
+
   /// Continues the work of follow(), for at most `points` points: particles that a long tear passes
   /// are separated completely. Call it once per frame; SoftBody::step() does. Other operations may
   /// come in between. While operations are undone and may be redone, it waits.

@@ -59,6 +59,13 @@ struct ContactReport {
   double deepest = 0.0;      ///< Largest depth of a contact point inside a collider, metres.
 };
 
+/// The motion of a point of the surface.
+struct PointMotion {
+  bool is_known = false;
+  std::uint32_t material = 0;  ///< Of the particle that moves it most.
+  Vec3d displacement = Vec3d::Zero(), velocity = Vec3d::Zero();
+};
+
 /// The motion of a ParticleSet: each particle has a displacement and a velocity relative to its
 /// rest. A damped spring pulls it to its rest, and its neighbours pull at it. The return spring is
 /// integrated in closed form, neighbours and holds implicitly, so any step and any stiffness is
@@ -131,6 +138,13 @@ class SUNDER_API SoftBody {
   /// @param point_of_other  per point of this body's set: the point of the other's; kNone: none.
   /// @return size_mismatch, index_out_of_range, limit_exceeded. O(points), allocates.
   Status inherit_motion_from(const SoftBody& other, std::span<const std::uint32_t> point_of_other);
+  /// The same from motions that were kept, because the other body has changed since.
+  /// @param motions  per point of this body's set. @return size_mismatch, non_finite_value,
+  /// limit_exceeded. O(points), allocates.
+  Status inherit_motion_from(std::span<const PointMotion> motions);
+  /// The motion at a point of the set, unchecked; unknown where no particle moves it, and before
+  /// displacements() or step() has followed the set.
+  [[nodiscard]] PointMotion motion_of(std::uint32_t point) const;
 
   // ---- Motion.
 
@@ -140,11 +154,13 @@ class SUNDER_API SoftBody {
   /// @param model    the model of the set, as ParticleSet::follow() left it.
   /// @param pose     at the end of the step. Bones move at constant speed within the step.
   /// @param seconds  >= 0; more than an hour counts as an hour.
+  /// @param settled_points  for ParticleSet::settle(); 0: the caller settles the set.
   /// @return non_finite_value or invalid_argument for `seconds` and the model, and as
   ///         ParticleSet::rest() for the pose: nothing is changed. A body that sleeps under `ride`,
   ///         without settings that could wake it, checks neither. limit_exceeded if out of memory:
   ///         the step may be incomplete.
-  Status step(const TornModel& model, const ModelPose& pose, double seconds);
+  Status step(const TornModel& model, const ModelPose& pose, double seconds,
+              std::uint32_t settled_points = 500);
 
   /// Displacement of each particle, as ParticleSet::follow() left them: x, y, z in metres, model
   /// space, and 0; for SkinnedMesh and shaders. Valid until the next call that is not const. Empty

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <memory_resource>
 #include <optional>
 #include <span>
 #include <vector>
@@ -43,6 +44,8 @@ struct CharacterAssetOptions {
   /// shows instead where an instance is less than `coarser_below` pixels high.
   std::shared_ptr<const CharacterAsset> coarser;
   double coarser_below = 0.0;
+  /// The asset allocates from it; see MemoryScope. Null: from the scope of the calling thread.
+  std::pmr::memory_resource* memory = nullptr;
 };
 
 /// Triangles of an index buffer that one draw call draws.

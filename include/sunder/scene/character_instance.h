@@ -15,6 +15,8 @@
 
 namespace sunder {
 
+struct PieceTissue;
+
 /// A triangle to be written into an index buffer.
 struct TriangleWrite {
   std::uint32_t place = 0;  ///< Index of the triangle in the index buffer.
@@ -62,8 +64,8 @@ class SUNDER_API CharacterInstance {
   CharacterInstance(CharacterInstance&&) noexcept;
   CharacterInstance& operator=(CharacterInstance&&) noexcept;
 
-  /// Creates the torn model and the soft body now, which the first operation would do otherwise.
-  /// @return limit_exceeded: out of memory.
+  /// Creates the torn model and the soft body now, with all memory that the first operation needs,
+  /// which it would do otherwise. O(size of the character). @return limit_exceeded: out of memory.
   Status prepare_to_tear();
 
   /// As TornModel::pack(): for an instance that will not be torn for a while. A Scene does it.
@@ -79,8 +81,10 @@ class SUNDER_API CharacterInstance {
   Result<TearReport> cut(const ModelPose& pose, const PlaneCut& cut,
                          ChangeRecord* change = nullptr);
   Result<TearReport> drill(const ModelPose& pose, const Bore& bore, ChangeRecord* change = nullptr);
+  /// @param tissue  optional; written, empty without a soft body: how the piece moves.
   Result<DetachedPiece> detach(const ModelPose& pose, const PiecePlace& place,
-                               const DetachOptions& options = {}, ChangeRecord* change = nullptr);
+                               const DetachOptions& options = {}, ChangeRecord* change = nullptr,
+                               PieceTissue* tissue = nullptr);
   Status undo(ChangeRecord* change = nullptr);
   Status redo(ChangeRecord* change = nullptr);
   /// As apply_operation(): any operation of a log. @param changes  optional; records are appended.
@@ -111,7 +115,9 @@ class SUNDER_API CharacterInstance {
   /// A refit of the weights of torn vertices, to be run on any thread.
   /// @return as RefitJob::create().
   Result<RefitJob> begin_refit(const WeightsOperation& wanted);
-  /// A large operation, to be run on any thread. @return as OperationJob::create().
+  /// A large operation, to be run on any thread, with what particles and drawing need afterwards;
+  /// the newest one only. Until it is swapped in, lips do not go on to part. @return as
+  /// OperationJob::create().
   Result<OperationJob> begin_operation(const Operation& operation);
   /// @return as the swap_in() of the job.
   Result<TearReport> swap_in(const OperationJob& job, ChangeRecord* change = nullptr);
@@ -121,10 +127,11 @@ class SUNDER_API CharacterInstance {
   ///
   /// @param pose     one matrix per bone, one weight per morph weight.
   /// @param seconds  since the last call, >= 0; the time step of the soft body.
+  /// @param settled_points  as in SoftBody::step().
   /// @return size_mismatch, index_out_of_range, non_finite_value, invalid_argument (nothing is
   ///         changed); limit_exceeded without enough memory: the time may have passed for the soft
   ///         body.
-  Status advance(const ModelPose& pose, double seconds);
+  Status advance(const ModelPose& pose, double seconds, std::uint32_t settled_points = 500);
 
   /// Poses every vertex that changed since the last call. Leave it out for an instance that nobody
   /// sees. O(vertices that moved + changes by tears); O(meshes) if nothing moved. Without a tear,
@@ -134,6 +141,9 @@ class SUNDER_API CharacterInstance {
   ///         capacity_exceeded if a target of set_target() is too small: do not use mesh() until a
   ///         later call succeeds.
   Status draw(const ParallelFor& parallel_for = {});
+  /// Continues to separate the particles at lips, as ParticleSet::settle(), in place of advance().
+  /// @return whether work remains.
+  bool settle(std::uint32_t points);
 
   /// Lets draw() write a mesh into memory of the caller, such as a mapped vertex buffer, with room
   /// for `target.vertex_count` vertices. Attributes without data are not computed. Without data at
@@ -181,10 +191,15 @@ class SUNDER_API CharacterInstance {
   [[nodiscard]] std::uint32_t drawn_vertices() const;
   /// Memory of this instance, without its asset. O(meshes).
   [[nodiscard]] std::size_t memory_bytes() const;
+  /// Lets a soft instance of a piece, which was not advanced yet, move on as the piece did.
+  /// @return invalid_argument without a soft body; as SoftBody::inherit_motion_from().
+  Status inherit_motion(const DetachedPiece& piece, const PieceTissue& tissue);
   /// Whether draw() has something to do: an operation, another pose, or tissue that moved.
   [[nodiscard]] bool needs_draw() const;
   /// Whether advance() has something to do in an unchanged pose: tissue is awake, or was changed.
   [[nodiscard]] bool needs_step() const;
+  /// Whether settle() has something to do.
+  [[nodiscard]] bool needs_settling() const;
 
  private:
   struct State;

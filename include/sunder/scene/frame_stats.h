@@ -17,15 +17,20 @@ struct FrameStats {
   std::uint32_t commands = 0;  ///< Commands that were applied, with or without success.
   std::uint32_t failed = 0;    ///< Those that failed.
 
+  // ---- Optional work that was done, in the units of FrameBudget.
+  std::uint32_t settled_points = 0;  ///< At most: an instance may have needed fewer.
+  std::uint32_t model_work = 0;
+
   // ---- Left out: numbers of instances.
   std::uint32_t idle = 0;           ///< Nothing plays, moves or was asked for: not even looked at.
   std::uint32_t unseen = 0;         ///< Active, but not visible: neither sampled nor drawn.
   std::uint32_t waiting = 0;        ///< Updated at a lower rate, and not in this frame.
   std::uint32_t in_background = 0;  ///< Commands that run on another thread.
   std::uint32_t unchanged = 0;      ///< Looked at, but nothing had changed.
+  std::uint32_t unsettled = 0;      ///< Lips whose particles are not all separated yet.
 
   // ---- Time in microseconds, summed over all threads; `total` is that of the call.
-  double total = 0, animation = 0, operations = 0, tissue = 0, drawing = 0;
+  double total = 0, animation = 0, operations = 0, settling = 0, tissue = 0, drawing = 0;
 };
 
 }  // namespace sunder

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <memory_resource>
 #include <span>
 #include <vector>
 
@@ -28,9 +29,28 @@ struct SceneOptions {
   ParallelFor parallel_for;
   std::uint32_t threads = 0;  ///< 0: one per core. 1: the calling thread does all the work.
   BackgroundHook background;
+  /// 0: what runs in the background takes effect as soon as it has finished, which depends on the
+  /// speed of the machine. Otherwise exactly so many updates after the one that begins it; if it
+  /// has not finished then, the update waits for it. The same calls then give the same bits
+  /// anywhere.
+  std::uint32_t background_updates = 0;
   /// Heights on the screen, in pixels, below which an instance is updated in every second frame,
   /// and in every fourth; see Scene::set_screen_height(). One that is being torn never is.
   std::array<double, 2> slower_below = {0, 0};
+  /// The scene, its instances and their background work allocate from it, on all threads; see
+  /// MemoryScope. It outlives the scene, its assets, and results that are kept. Null: the heap.
+  std::pmr::memory_resource* memory = nullptr;
+};
+
+/// The optional work that one update may do, over all instances. Units of work, not time, so that
+/// the same calls give the same bits on every machine: record what was set to replay it.
+struct FrameBudget {
+  static constexpr std::uint32_t kUnlimited = ~std::uint32_t{0};
+  /// Points at which particles next to lips are separated; 500 per instance at most. A wound opens
+  /// later if they are few.
+  std::uint32_t settled_points = kUnlimited;
+  /// Instances whose refit is swapped in, whose level of detail changes, or that are packed.
+  std::uint32_t model_work = kUnlimited;
 };
 
 struct SpawnOptions {
@@ -94,6 +114,12 @@ class SUNDER_API Scene {
   /// @return limit_exceeded: out of memory.
   Result<CommandId> submit(InstanceId instance, SceneCommand command,
                            const CommandOptions& options = {});
+
+  /// Sets the budget of the following updates. Instances take turns.
+  void set_budget(const FrameBudget& budget);
+  /// A budget that takes about so much time, by the rate that past updates measured. It depends on
+  /// the machine; see FrameBudget.
+  [[nodiscard]] FrameBudget budget_of(double microseconds) const;
 
   /// Advances by a frame. For each active instance, as tasks: samples its clip, applies its
   /// commands in the new pose, steps its tissue, and poses the vertices that changed.

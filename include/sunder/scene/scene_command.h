@@ -1,6 +1,7 @@
 #pragma once
 
 #include <sunder/operation/operation.h>
+#include <sunder/particles/soft_body.h>
 #include <sunder/tear/change_record.h>
 #include <sunder/tear/detached_piece.h>
 #include <sunder/tear/report.h>
@@ -54,6 +55,12 @@ using SceneCommand = std::variant<TearCommand, PlaneCut, Bore, BeginStrokeComman
                                   ExtendStrokeCommand, EndStrokeCommand, CancelStrokeCommand,
                                   DetachCommand, UndoCommand, RedoCommand, WeightsOperation>;
 
+/// How the tissue of a piece moved when it was detached.
+struct PieceTissue {
+  std::vector<std::uint32_t> points;  ///< Of the torn model, ascending: DetachedPiece::old_points.
+  std::vector<PointMotion> motions;   ///< One per point.
+};
+
 /// The number of a command, ascending in the order of Scene::submit().
 using CommandId = std::uint64_t;
 
@@ -64,15 +71,19 @@ struct CommandResult {
   Status status;      ///< A command that failed changed nothing.
   TearReport report;  ///< Empty for a command that failed, and for undo and redo.
   std::shared_ptr<const DetachedPiece> piece;  ///< Of a DetachCommand that succeeded.
-  std::vector<ChangeRecord> changes;           ///< If CommandOptions::wants_changes.
+  /// Of that piece if it was soft, for CharacterInstance::inherit_motion().
+  std::shared_ptr<const PieceTissue> tissue;
+  std::vector<ChangeRecord> changes;  ///< If CommandOptions::wants_changes.
 };
 
 struct CommandOptions {
   bool wants_changes = false;  ///< Whether the result lists the changes, for engines that mirror
                                ///< births and lips.
   /// For tears, cuts, bores and weights that take longer than a frame: runs on another thread while
-  /// the instance is drawn as it was, and is swapped in by a later update. It acts in the pose of
-  /// the update that takes it. Later commands of the instance wait for it, but not for a refit.
+  /// the instance is drawn as it was, and is swapped in by a later update, which only exchanges
+  /// what was prepared. It acts in the pose of the update that takes it. Later commands of the
+  /// instance wait for it, but not for a refit. Those of strokes do not wait: they are applied
+  /// before it, and it runs again on what they leave.
   bool in_background = false;
 };
 

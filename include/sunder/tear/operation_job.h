@@ -2,7 +2,9 @@
 
 #include <sunder/tear/torn_model.h>
 
+#include <functional>
 #include <memory>
+#include <span>
 
 namespace sunder {
 namespace tear {
@@ -23,10 +25,17 @@ class SUNDER_API OperationJob {
  public:
   enum class State : std::uint8_t { waiting, running, done, failed, swapped_in };
 
+  /// Sees the replica with the operation done, and its records, before run() returns: to prepare on
+  /// the same thread what follows the operation.
+  using Observer =
+      std::function<void(const TornModel& replica, std::span<const ChangeRecord> changes)>;
+
   /// Copies the history of the model. @param operation  not an undo or redo.
+  /// @param observer  optional; throws nothing but std::bad_alloc.
   /// @return invalid_argument for those and while a stroke is in progress; as
   ///         TornModel::history(). O(size of the operations), allocates.
-  static Result<OperationJob> create(TornModel& model, const Operation& operation);
+  static Result<OperationJob> create(TornModel& model, const Operation& operation,
+                                     Observer observer = {});
   /// Replays the history and runs the operation. Call it once, on any thread; it does not access
   /// the model. O(size of the model + its operations). The result has the same bits as the call of
   /// the operation.
@@ -39,6 +48,9 @@ class SUNDER_API OperationJob {
   ///         create(); capacity_exceeded or limit_exceeded: the model is unchanged, and the job can
   ///         be swapped in later.
   Result<TearReport> swap_in(TornModel& model, ChangeRecord* change = nullptr) const;
+
+  /// Whether both refer to the same job.
+  bool operator==(const OperationJob&) const = default;
 
  private:
   explicit OperationJob(std::shared_ptr<tear::OperationTask> task);

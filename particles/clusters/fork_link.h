@@ -1,0 +1,17 @@
+#pragma once
+
+#include <memory>
+#include <mutex>
+
+namespace sunder::particles {
+
+struct Structure;
+
+/// Connects a set with its fork, which copies the set on another thread.
+struct ForkLink {
+  std::mutex mutex;                         ///< Held while the structure is copied.
+  const Structure* from = nullptr;          ///< Null: the fork has ended.
+  std::shared_ptr<const Structure> shared;  ///< Of the asset.
+};
+
+}  // namespace sunder::particles

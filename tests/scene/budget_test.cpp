@@ -1,0 +1,116 @@
+// Optional work is spread over updates by a budget, with the same bits wherever it is replayed.
+
+#include <sunder/scene/scene.h>
+#include <sunder/skinning/pose.h>
+
+#include <cstring>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "support/random_operations.h"
+#include "support/rigs.h"
+
+namespace sunder {
+namespace {
+
+constexpr double kFrame = 1.0 / 64;
+
+std::shared_ptr<const CharacterAsset> soft_ball() {
+  auto character = std::make_shared<Character>(test::make_bumpy_ball(3000));
+  test::rig_along(*character, 6);
+  CharacterAssetOptions options;
+  options.soft.emplace();
+  options.soft->tension = {2.0, {}};
+  auto asset = CharacterAsset::create(std::move(character), options);
+  EXPECT_TRUE(asset) << asset.error().text();
+  return *asset;
+}
+
+/// Four instances, each torn all around.
+class TornScene {
+ public:
+  TornScene(const std::shared_ptr<const CharacterAsset>& asset, std::uint32_t threads)
+      : scene_(make(threads)) {
+    PlaneCut cut;
+    Eigen::AlignedBox3d box;
+    for (const Vec3f& at : asset->character()->meshes[0].positions) box.extend(at.cast<double>());
+    cut.point = box.center();
+    cut.normal = Vec3d(0.1, 1, 0.2);
+    for (int i = 0; i < 4; ++i) {
+      ids.push_back(*scene_.spawn(asset));
+      EXPECT_TRUE(scene_.submit(ids.back(), cut));
+    }
+  }
+  void update(const FrameBudget& budget) {
+    scene_.set_budget(budget);
+    ASSERT_TRUE(scene_.update(kFrame));
+  }
+  [[nodiscard]] Scene& scene() { return scene_; }
+  std::vector<InstanceId> ids;
+
+ private:
+  static Scene make(std::uint32_t threads) {
+    SceneOptions options;
+    options.threads = threads;
+    return std::move(*Scene::create(options));
+  }
+  Scene scene_;
+};
+
+std::vector<Vec3f> places(Scene& scene, InstanceId id) {
+  const PosedMesh mesh = scene.mesh(id, 0);
+  return {mesh.positions.begin(), mesh.positions.end()};
+}
+
+TEST(budget, limits_the_points_of_all_instances_together) {
+  TornScene torn(soft_ball(), 1);
+  std::uint32_t updates = 0, unsettled = 4;
+  for (; updates < 3000 && (updates < 3 || unsettled > 0); ++updates) {
+    torn.update({.settled_points = 70, .model_work = 1});
+    ASSERT_LE(torn.scene().stats().settled_points, 70u);
+    ASSERT_LE(torn.scene().stats().model_work, 1u);
+    unsettled = torn.scene().stats().unsettled;
+  }
+  EXPECT_EQ(unsettled, 0u);
+  EXPECT_GT(updates, 10u);
+  for (const InstanceId id : torn.ids)
+    EXPECT_TRUE(torn.scene().find(id)->particles()->is_settled());
+}
+
+TEST(budget, nothing_is_settled_without_one) {
+  TornScene torn(soft_ball(), 1);
+  for (int i = 0; i < 20; ++i) {
+    torn.update({.settled_points = 0, .model_work = 0});
+    EXPECT_EQ(torn.scene().stats().settled_points, 0u);
+  }
+  EXPECT_EQ(torn.scene().stats().unsettled, 4u);
+}
+
+TEST(budget, recorded_budgets_replay_the_same_bits_on_any_number_of_threads) {
+  const auto asset = soft_ball();
+  TornScene one(asset, 1), other(asset, 3);
+  for (int i = 0; i < 120; ++i) {
+    const FrameBudget budget = one.scene().budget_of(20.0 * (i % 7));  // as an engine does it
+    one.update(budget);
+    other.update(budget);
+  }
+  for (std::size_t i = 0; i < one.ids.size(); ++i) {
+    const auto wanted = places(one.scene(), one.ids[i]),
+               found = places(other.scene(), other.ids[i]);
+    ASSERT_EQ(wanted.size(), found.size());
+    ASSERT_FALSE(wanted.empty());
+    EXPECT_EQ(std::memcmp(wanted.data(), found.data(), wanted.size() * sizeof(Vec3f)), 0);
+  }
+}
+
+TEST(budget, no_time_is_no_work) {
+  TornScene torn(soft_ball(), 1);
+  EXPECT_EQ(torn.scene().budget_of(0).settled_points, 0u);
+  EXPECT_EQ(torn.scene().budget_of(0).model_work, 0u);
+  EXPECT_GT(torn.scene().budget_of(100).settled_points, 0u);
+  EXPECT_EQ(torn.scene().budget_of(-5).settled_points, 0u);
+}
+
+}  // namespace
+}  // namespace sunder
