@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "tear/section/graded_points.h"
+
 namespace sunder::tear {
 
 CapShape* CapShapes::of(std::span<const FlatLoop> loops, const FlatRegion& region) {
@@ -27,26 +29,29 @@ CapShape* CapShapes::of(std::span<const FlatLoop> loops, const FlatRegion& regio
     shapes_.pop_back();
     return &*known;
   }
-  auto flat = triangulate(loops, region, InnerPoints::graded, scratch_);
-  if (!flat) {
+  if (!triangulate_into(wanted.flat, wanted.rim_count, loops, region)) {
     shapes_.pop_back();
     return nullptr;
   }
-  wanted.flat = std::move(*flat);
   wanted.places.insert(wanted.places.end(), wanted.flat.inner.begin(), wanted.flat.inner.end());
   return &wanted;
 }
 
-void CapShapes::extend(CapShape& shape, ScratchVector<double>& values) {
-  const std::size_t channels = values.size() / shape.places.size();
-  const auto rim_end = static_cast<std::ptrdiff_t>(shape.rim_count * channels);
-  if (shape.values.size() == values.size() &&
-      std::equal(values.begin(), values.begin() + rim_end, shape.values.begin())) {
-    std::copy(shape.values.begin() + rim_end, shape.values.end(), values.begin() + rim_end);
-    return;
-  }
-  extend_harmonically(shape.places, shape.flat, channels, values, scratch_);
-  if (shape.values.empty()) shape.values = values;
+/// The memory of the triangulation is used again by later steps; it is much more than the result.
+bool CapShapes::triangulate_into(FlatMesh& flat, std::size_t rim_count,
+                                 std::span<const FlatLoop> loops, const FlatRegion& region) {
+  const std::size_t most_inner = most_graded_points(rim_count);
+  const std::size_t most_triangles = rim_count + 2 * region.holes.size() + 2 * most_inner;
+  flat.inner.reserve(most_inner);
+  flat.triangles.reserve(most_triangles);
+  flat.twins.reserve(3 * most_triangles);
+  const ScratchMemory::Frame frame(scratch_);
+  const auto made = triangulate(loops, region, InnerPoints::graded, scratch_);
+  if (!made) return false;
+  flat.inner.assign(made->inner.begin(), made->inner.end());
+  flat.triangles.assign(made->triangles.begin(), made->triangles.end());
+  flat.twins.assign(made->twins.begin(), made->twins.end());
+  return true;
 }
 
 }  // namespace sunder::tear

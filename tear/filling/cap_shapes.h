@@ -8,16 +8,26 @@
 
 namespace sunder::tear {
 
-/// A triangulated region of a section, and the values that were extended into it.
+/// A triangulated region of a section, and the cap that was made from it first.
 struct CapShape {
   explicit CapShape(ScratchMemory& scratch)
-      : loop_sizes(&scratch), places(&scratch), flat(scratch), values(&scratch) {}
+      : loop_sizes(&scratch),
+        places(&scratch),
+        flat(scratch),
+        first_cap{kNone, false, false, ScratchVector<Index>(&scratch)} {}
+
+  struct Cap {
+    Index mesh;  ///< kNone if there is none yet.
+    bool is_inside_out;
+    bool is_flat;                   ///< Whether stored positions leave a triangle no area.
+    ScratchVector<Index> vertices;  ///< Per place.
+  };
 
   ScratchVector<std::size_t> loop_sizes;
   ScratchVector<Vec2d> places;  ///< Of the rim, then of the inner points.
   std::size_t rim_count = 0;
   FlatMesh flat;
-  ScratchVector<double> values;  ///< A row per place; empty until they were extended once.
+  Cap first_cap;
 };
 
 /// The shapes of a section. Both sides of a cut have the same rims, so each shape is made once and
@@ -30,12 +40,11 @@ class CapShapes {
   /// @return null if the region cannot be triangulated.
   [[nodiscard]] CapShape* of(std::span<const FlatLoop> loops, const FlatRegion& region);
 
-  /// Extends the values of the rim to the inner points, or copies those of the other side if it had
-  /// the same.
-  /// @param values  a row per place; those of the rim are read, the others written.
-  void extend(CapShape& shape, ScratchVector<double>& values);
-
  private:
+  /// @return false if the region cannot be triangulated.
+  [[nodiscard]] bool triangulate_into(FlatMesh& flat, std::size_t rim_count,
+                                      std::span<const FlatLoop> loops, const FlatRegion& region);
+
   ScratchMemory& scratch_;
   std::pmr::list<CapShape> shapes_;
 };

@@ -7,6 +7,7 @@
 #include "core/internal/ordered.h"
 #include "tear/filling/cap_shapes.h"
 #include "tear/filling/filling.h"
+#include "tear/filling/rim_values.h"
 #include "tear/geometry/tolerances.h"
 #include "tear/internal/surface.h"
 #include "tear/section/flat_section.h"
@@ -158,23 +159,69 @@ class Caps {
       points.push_back(point_before(h));
       vertices.push_back(filling_.add_rim_vertex(mesh, Surface::next(h)));
     }
-    add_inner_points(mesh, of, points, vertices);
     // A body whose faces point inwards has reversed rims.
     const bool is_inside_out = doubled_area(loops[region.outline]) < 0;
-    shade(mesh, of.places, is_inside_out, vertices);
-    ScratchVector<FlatTriangle> triangles(of.flat.triangles, &scratch());
-    turn_flat_triangles(rim.half_edges, mesh, vertices, triangles);
-    for (FlatTriangle corners : triangles) {
-      if (is_inside_out != (facing_ == Facing::against_normal)) std::swap(corners[1], corners[2]);
-      const Triangle triangle = {vertices[corners[0]], vertices[corners[1]], vertices[corners[2]]};
-      const Eigen::Vector3d a = place(mesh, triangle[0]), ab = place(mesh, triangle[1]) - a,
-                            ac = place(mesh, triangle[2]) - a;
-      if (!(squared_norm(ab.cross(ac)) > 0))
-        return false;  // stored positions are too coarse for it
-      filling_.add_triangle(mesh, rim.half_edges.front(),
-                            {points[corners[0]], points[corners[1]], points[corners[2]]}, triangle);
+    const bool is_copy = is_like_first(mesh, is_inside_out, of, vertices);
+    if (is_copy)
+      copy_inner_points(mesh, of, points, vertices);
+    else
+      add_inner_points(mesh, of, points, vertices);
+    shade(mesh, of, is_inside_out, is_copy, vertices);
+    if (!add_triangles(rim, mesh, of, is_inside_out, is_copy, points, vertices, before))
+      return false;
+    if (&of == &shape && shape.first_cap.mesh == kNone)
+      shape.first_cap = {mesh, is_inside_out, shape.first_cap.is_flat, std::move(vertices)};
+    return true;
+  }
+
+  /// Adds the triangles and connects them. @return false if that fails.
+  bool add_triangles(const CapRim& rim, Index mesh, CapShape& shape, bool is_inside_out,
+                     bool is_copy, std::span<const Index> points, std::span<const Index> vertices,
+                     const EditLog::Mark& before) {
+    const FlatMesh& flat = shape.flat;
+    ScratchVector<FlatTriangle> turned(&scratch());
+    // What has the same places in bind space has the same triangles without area.
+    if (!is_copy) shape.first_cap.is_flat = has_flat_triangles(mesh, vertices, flat.triangles);
+    if (shape.first_cap.is_flat) {
+      turned = flat.triangles;
+      turn_flat_triangles(rim.half_edges, mesh, vertices, turned);
+      if (!have_area(mesh, vertices, turned)) return false;  // stored positions are too coarse
     }
-    return filling_.connect(rim.half_edges, before);
+    const std::span<const FlatTriangle> triangles =
+        shape.first_cap.is_flat ? turned : flat.triangles;
+    const bool is_swapped = is_inside_out != (facing_ == Facing::against_normal);
+    const std::array<std::size_t, 3> order = {0, is_swapped ? 2u : 1u, is_swapped ? 1u : 2u};
+    const Index first = work_.editor.surface().triangle_count();
+    for (const FlatTriangle& corners : triangles) {
+      const Index a = corners[order[0]], b = corners[order[1]], c = corners[order[2]];
+      filling_.add_triangle(mesh, rim.half_edges.front(), {points[a], points[b], points[c]},
+                            {vertices[a], vertices[b], vertices[c]});
+    }
+    if (shape.first_cap.is_flat || flat.twins.empty())
+      return filling_.connect(rim.half_edges, before);
+    connect_as(flat, rim, first, is_swapped);
+    return true;
+  }
+
+  /// Connects the triangles from `first` on, which are those of a flat mesh. No edge between points
+  /// of the rim is joined to another face, see joined_edges().
+  void connect_as(const FlatMesh& flat, const CapRim& rim, Index first, bool is_swapped) const {
+    const auto half_edge_of = [&](Index flat_edge) {
+      const Index k = flat_edge % 3;
+      return 3 * (first + flat_edge / 3) + (is_swapped ? 2 - k : k);
+    };
+    const auto rim_count = static_cast<Index>(rim.half_edges.size());
+    for (Index edge = 0; edge < flat.twins.size(); ++edge) {
+      const Index twin = flat.twins[edge];
+      if (twin != kNone) {
+        if (edge < twin) work_.editor.connectivity.join(half_edge_of(edge), half_edge_of(twin));
+        continue;
+      }
+      // The border runs against the cap: it ends where the cap's edge begins.
+      const FlatTriangle& corners = flat.triangles[edge / 3];
+      const Index begin = corners[(is_swapped ? edge + 1 : edge) % 3];
+      if (begin < rim_count) connect(half_edge_of(edge), rim.half_edges[begin], work_.editor);
+    }
   }
 
   /// Whether the cap needs points that the shape does not have, because of the faces around it.
@@ -185,6 +232,7 @@ class Caps {
     if (!is_second && joined.empty()) return false;
     own.rim_count = shape.rim_count;
     own.flat = shape.flat;
+    own.flat.twins.clear();
     if (is_second) split_second_face(rim, own.flat);
     split_edges(joined, rim, own.flat);
     own.places.assign(rim.places.begin(), rim.places.end());
@@ -265,6 +313,28 @@ class Caps {
       }
   }
 
+  /// Whether stored positions leave a triangle no area, or nearly none.
+  [[nodiscard]] bool has_flat_triangles(Index mesh, std::span<const Index> vertices,
+                                        std::span<const FlatTriangle> triangles) const {
+    return std::any_of(triangles.begin(), triangles.end(), [&](const FlatTriangle& t) {
+      const Eigen::Vector3d a = place(mesh, vertices[t[0]]);
+      const Eigen::Vector3d ab = place(mesh, vertices[t[1]]) - a,
+                            ac = place(mesh, vertices[t[2]]) - a, bc = ac - ab;
+      const double longest = std::max({squared_norm(ab), squared_norm(bc), squared_norm(ac)});
+      const double height = kStoredCoordinates * a.cwiseAbs().maxCoeff();
+      return !(squared_norm(ab.cross(ac)) > height * height * longest);
+    });
+  }
+
+  [[nodiscard]] bool have_area(Index mesh, std::span<const Index> vertices,
+                               std::span<const FlatTriangle> triangles) const {
+    return std::all_of(triangles.begin(), triangles.end(), [&](const FlatTriangle& t) {
+      const Eigen::Vector3d a = place(mesh, vertices[t[0]]), ab = place(mesh, vertices[t[1]]) - a,
+                            ac = place(mesh, vertices[t[2]]) - a;
+      return squared_norm(ab.cross(ac)) > 0;
+    });
+  }
+
   /// Rim points that should be collinear, as where a cut meets an older cap, are so only
   /// approximately in the pose. After rounding to float, a triangle of three of them has no area.
   /// Its longest edge is flipped.
@@ -280,7 +350,6 @@ class Caps {
     const auto is_flat = [&](const FlatTriangle& t) {
       return height_of(t) <= kStoredCoordinates * at(t[0]).cwiseAbs().maxCoeff();
     };
-    if (std::none_of(triangles.begin(), triangles.end(), is_flat)) return;
     std::pmr::map<std::array<Index, 2>, std::size_t> triangle_at(&scratch());  // by directed edge
     const auto enter = [&](std::size_t t) {
       for (std::size_t k = 0; k < 3; ++k)
@@ -325,89 +394,55 @@ class Caps {
     return static_cast<Index>(std::max_element(count.begin(), count.end()) - count.begin());
   }
 
-  /// The slots of the bones that move some vertices, ascending.
-  [[nodiscard]] ScratchVector<Index> slots_of(Index mesh, std::span<const Index> vertices) const {
-    ScratchVector<Index> slots(&scratch());
-    for (const Index vertex : vertices)
-      for (const Influence& influence : work_.editor.births.influences(mesh, vertex)) {
-        const auto at = std::lower_bound(slots.begin(), slots.end(), influence.slot);
-        if (at == slots.end() || *at != influence.slot) slots.insert(at, influence.slot);
-      }
-    return slots;
-  }
-
-  /// The values of the rim that are extended to the inner points, a row per point: bind position,
-  /// weights of the slots, morph displacements.
-  [[nodiscard]] ScratchVector<double> values_of(Index mesh, std::span<const Index> vertices,
-                                                std::span<const Index> slots,
-                                                std::size_t point_count) const {
-    const Mesh& of = work_.editor.character().meshes[mesh];
-    const std::size_t first_morph = 3 + slots.size();
-    const std::size_t channels = first_morph + 3 * of.morph_targets.size();
-    ScratchVector<double> values(point_count * channels, 0.0, &scratch());
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-      double* const row = &values[i * channels];
-      const Eigen::Vector3d at = place(mesh, vertices[i]);
-      std::copy_n(at.data(), 3, row);
-      for (const Influence& influence : work_.editor.births.influences(mesh, vertices[i]))
-        row[3 + (std::lower_bound(slots.begin(), slots.end(), influence.slot) - slots.begin())] =
-            static_cast<double>(influence.weight);
-      for (std::size_t t = 0; t < of.morph_targets.size(); ++t) {
-        const auto& deltas = of.morph_targets[t].position_deltas;
-        for (Eigen::Index k = 0; k < 3 && !deltas.empty(); ++k)
-          row[first_morph + 3 * t + static_cast<std::size_t>(k)] =
-              static_cast<double>(deltas[vertices[i]][k]);
-      }
-    }
-    return values;
-  }
-
   /// Adds the inner points. Bind positions, weights and morph displacements are harmonic between
   /// those of the rim.
   void add_inner_points(Index mesh, CapShape& shape, ScratchVector<Index>& points,
                         ScratchVector<Index>& vertices) {
     if (shape.flat.inner.empty()) return;
-    const std::size_t targets = work_.editor.character().meshes[mesh].morph_targets.size();
-    const ScratchVector<Index> slots = slots_of(mesh, vertices);
-    const std::size_t channels = 3 + slots.size() + 3 * targets;
-    ScratchVector<double> values = values_of(mesh, vertices, slots, shape.places.size());
-    shapes_.extend(shape, values);
-
-    ScratchVector<Influence> influences(&scratch());
-    influences.reserve(slots.size());
-    ScratchVector<Vec3d> displacements(targets, Vec3d::Zero(), &scratch());
+    const ScratchMemory::Frame frame(scratch());  // points and vertices have room
+    RimValues of_rim(mesh, vertices, work_.editor);
+    ScratchVector<double> rows = of_rim.rows(vertices, shape.places.size());
+    extend_harmonically(shape.places, shape.flat, of_rim.channels(), rows, scratch());
     for (std::size_t i = shape.rim_count; i < shape.places.size(); ++i) {
-      const double* const row = &values[i * channels];
-      weigh(slots, row + 3, influences);
-      for (std::size_t t = 0; t < targets; ++t)
-        displacements[t] = Eigen::Map<const Eigen::Vector3d>(row + 3 + slots.size() + 3 * t);
-      const Vec3d bind_position = Eigen::Map<const Eigen::Vector3d>(row);
-      vertices.push_back(filling_.add_inner_vertex(mesh, vertices.front(),
-                                                   {bind_position, influences, displacements}));
-      points.push_back(append_filling_point(work_.editor));
-      work_.posed.pin(points.back(), frame_.lift(shape.places[i]));
+      const RimValues::Vertex vertex = of_rim.vertex_of(&rows[i * of_rim.channels()]);
+      vertices.push_back(filling_.add_inner_vertex(
+          mesh, vertices.front(),
+          {vertex.bind_position, vertex.influences, vertex.morph_displacements}));
+      add_inner_point(shape.places[i], points);
     }
   }
 
-  /// Normalised influences, the largest first.
-  static void weigh(std::span<const Index> slots, const double* weights,
-                    ScratchVector<Influence>& influences) {
-    influences.clear();
-    double sum = 0;
-    for (std::size_t s = 0; s < slots.size(); ++s) {
-      if (weights[s] < kLeastCapWeight) continue;
-      influences.push_back({slots[s], static_cast<float>(weights[s])});
-      sum += static_cast<double>(influences.back().weight);
+  /// Adds the inner points with the vertices of the other side's cap.
+  void copy_inner_points(Index mesh, const CapShape& shape, ScratchVector<Index>& points,
+                         ScratchVector<Index>& vertices) {
+    for (std::size_t i = shape.rim_count; i < shape.places.size(); ++i) {
+      vertices.push_back(
+          work_.editor.births.append_filling_vertex(mesh, shape.first_cap.vertices[i]));
+      add_inner_point(shape.places[i], points);
     }
-    for (Influence& influence : influences)
-      influence.weight = static_cast<float>(static_cast<double>(influence.weight) / sum);
-    std::sort(influences.begin(), influences.end(), [](const Influence& a, const Influence& b) {
-      return a.weight != b.weight ? a.weight > b.weight : a.slot < b.slot;
-    });
   }
 
-  void shade(Index mesh, std::span<const Vec2d> places, bool is_inside_out,
+  void add_inner_point(const Vec2d& place, ScratchVector<Index>& points) {
+    points.push_back(append_filling_point(work_.editor));
+    work_.posed.pin(points.back(), frame_.lift(place));
+  }
+
+  /// Whether the rim has the same values as that of the cap that was made from the shape first, so
+  /// that the inner points have them too.
+  [[nodiscard]] bool is_like_first(Index mesh, bool is_inside_out, const CapShape& shape,
+                                   std::span<const Index> vertices) const {
+    const CapShape::Cap& first = shape.first_cap;
+    if (first.mesh != mesh || first.is_inside_out != is_inside_out) return false;
+    for (std::size_t i = 0; i < shape.rim_count; ++i)
+      if (!RimValues::are_same(mesh, first.vertices[i], vertices[i], work_.editor)) return false;
+    return true;
+  }
+
+  /// @param is_copy  the vertices are like those of the cap that was made first, which faces in the
+  ///         opposite direction.
+  void shade(Index mesh, const CapShape& shape, bool is_inside_out, bool is_copy,
              std::span<const Index> vertices) {
+    const std::span<const Vec2d> places(shape.places);
     Vec2d low = places[0], high = places[0];
     for (const Vec2d& place : places) {
       low = low.cwiseMin(place);
@@ -419,7 +454,10 @@ class Caps {
     for (std::size_t i = 0; i < places.size(); ++i) {
       const Vec2d at(places[i].x() - low.x(),
                      is_from_behind ? high.y() - places[i].y() : places[i].y() - low.y());
-      filling_.shade(mesh, vertices[i], normal, frame_.x, at / extent);
+      if (is_copy)
+        filling_.shade_from_behind(mesh, vertices[i], shape.first_cap.vertices[i], at / extent);
+      else
+        filling_.shade(mesh, vertices[i], normal, frame_.x, at / extent);
     }
   }
 

@@ -45,6 +45,16 @@ class DirectedEdges {
   ScratchVector<Index> slots_;
 };
 
+/// The attributes that no bone moves.
+void set_flat_attributes(Index vertex, const Vec2d& uv, Mesh& mesh) {
+  for (auto& uvs : mesh.uv_sets) uvs[vertex] = uv.cast<float>();
+  for (auto& colors : mesh.color_sets) colors[vertex] = Vec4f::Ones();
+  for (MorphTarget& target : mesh.morph_targets) {
+    if (!target.normal_deltas.empty()) target.normal_deltas[vertex].setZero();
+    if (!target.tangent_deltas.empty()) target.tangent_deltas[vertex].setZero();
+  }
+}
+
 }  // namespace
 
 Filling::Filling(const char* name, const Workpiece& work)
@@ -102,7 +112,6 @@ const Mat3d& Filling::normal_matrix(Index skin, Index slot) {
 void Filling::shade(Index mesh, Index vertex, const Vec3d& normal, const Vec3d& tangent,
                     const Vec2d& uv) {
   Mesh& of = work_.editor.mutable_mesh(mesh);
-  const Mat3d posed_from_bind = blended(mesh, vertex);
   Mat3d posed_from_bind_of_normals = Mat3d::Zero();
   for (const Influence& influence : work_.editor.births.influences(mesh, vertex))
     posed_from_bind_of_normals +=
@@ -110,22 +119,24 @@ void Filling::shade(Index mesh, Index vertex, const Vec3d& normal, const Vec3d& 
   Vec3d bind_normal = to_bind(posed_from_bind_of_normals, normal, normal);
   bind_normal =
       norm(bind_normal) > kShortestDirection ? Vec3d(bind_normal / norm(bind_normal)) : normal;
-  Vec3d bind_tangent = to_bind(posed_from_bind, tangent, tangent);
-  bind_tangent -= dot(bind_normal, bind_tangent) * bind_normal;
-  if (!(norm(bind_tangent) > kDirectionLengths * norm(tangent)))
-    bind_tangent = bind_normal.unitOrthogonal();
-  bind_tangent /= norm(bind_tangent);
   if (!of.normals.empty()) of.normals[vertex] = bind_normal.cast<float>();
   if (!of.tangents.empty()) {
+    Vec3d bind_tangent = to_bind(blended(mesh, vertex), tangent, tangent);
+    bind_tangent -= dot(bind_normal, bind_tangent) * bind_normal;
+    if (!(norm(bind_tangent) > kDirectionLengths * norm(tangent)))
+      bind_tangent = bind_normal.unitOrthogonal();
+    bind_tangent /= norm(bind_tangent);
     const Vec3f unit = bind_tangent.cast<float>();
     of.tangents[vertex] = {unit.x(), unit.y(), unit.z(), 1.0f};
   }
-  for (auto& uvs : of.uv_sets) uvs[vertex] = uv.cast<float>();
-  for (auto& colors : of.color_sets) colors[vertex] = Vec4f::Ones();
-  for (MorphTarget& target : of.morph_targets) {
-    if (!target.normal_deltas.empty()) target.normal_deltas[vertex].setZero();
-    if (!target.tangent_deltas.empty()) target.tangent_deltas[vertex].setZero();
-  }
+  set_flat_attributes(vertex, uv, of);
+}
+
+void Filling::shade_from_behind(Index mesh, Index vertex, Index other, const Vec2d& uv) {
+  Mesh& of = work_.editor.mutable_mesh(mesh);
+  if (!of.normals.empty()) of.normals[vertex] = -of.normals[other];
+  if (!of.tangents.empty()) of.tangents[vertex] = of.tangents[other];
+  set_flat_attributes(vertex, uv, of);
 }
 
 void Filling::add_triangle(Index mesh, Index like_corner, const std::array<Index, 3>& points,

@@ -28,6 +28,9 @@ class Filling {
   [[nodiscard]] Index add_inner_vertex(Index mesh, Index like, const Inner& inner);
   /// Sets the posed normal, the posed direction of u, and the texture coordinates of a vertex.
   void shade(Index mesh, Index vertex, const Vec3d& normal, const Vec3d& tangent, const Vec2d& uv);
+  /// The same for a vertex that has the position and weights of another one, but faces in the
+  /// opposite direction.
+  void shade_from_behind(Index mesh, Index vertex, Index other, const Vec2d& uv);
   /// Linear part of the blended bone matrices of a vertex.
   [[nodiscard]] Mat3d blended(Index mesh, Index vertex) const;
 

@@ -44,36 +44,45 @@ Index PieceSearch::first_mark_of(Index cell) {
   if (first != kNone) return first;
   marked_nodes_.push_back(cell);
   const auto count = static_cast<Index>(cell_marks_.size());
-  cell_marks_.resize(count + cells_.faces(cell).size(), kNone);
+  const std::size_t face_count = cells_.faces(cell).size();
+  cell_marks_.resize(count + 1 + face_count, kNone);
+  cell_marks_[count] = static_cast<Index>(face_count);
   area_of_faces_ += cells_.area(cell);
   return first = count;
 }
 
-Index& PieceSearch::mark_of(Index face) {
-  const Index source_count = surface_.first_triangle.back();
-  if (face < source_count)
-    return cell_marks_[first_mark_of(cells_.cell_of(face)) + cells_.place_of(face)];
-  const TriangleRef& ref = surface_.appended[face - source_count];
+void PieceSearch::bound_area_of(Index appended) {
+  const TriangleRef& ref = surface_.appended[appended];
   const Index origin = surface_.first_triangle[ref.mesh] + ref.source_triangle;
   if (origin < surface_.first_triangle[ref.mesh + 1])
     static_cast<void>(first_mark_of(cells_.cell_of(origin)));  // its area bounds the face's
   else
     area_of_faces_ = std::numeric_limits<double>::infinity();
-  return appended_marks_[face - source_count];
 }
 
 void PieceSearch::reach_face(Index front, Index face) {
-  if (face < surface_.first_triangle.back())
-    if (const Index cell = cells_.cell_of(face); changed_cells_.is_clean(cell)) {
-      reach_node(front, changed_cells_.top_clean(cell));
-      return;
-    }
-  Index& mark = mark_of(face);
-  const Index owner = sets_.find(front);
-  if (mark != kNone) {
-    join(owner, mark);
+  const Index source_count = surface_.first_triangle.back();
+  if (face >= source_count) {
+    Index& mark = appended_marks_[face - source_count];
+    if (mark == kNone) bound_area_of(face - source_count);
+    visit_face(front, face, mark);
     return;
   }
+  const Index cell = cells_.cell_of(face);
+  if (changed_cells_.is_clean(cell))
+    reach_node(front, changed_cells_.top_clean(cell));
+  else
+    visit_face(front, face, cell_marks_[first_mark_of(cell) + 1 + cells_.place_of(face)]);
+}
+
+/// @param mark  of the face: the front that visited it.
+void PieceSearch::visit_face(Index front, Index face, Index& mark) {
+  if (mark == front) return;
+  if (mark != kNone) {
+    join(front, mark);
+    return;
+  }
+  const Index owner = sets_.find(front);
   Front& of_owner = fronts_[owner];
   of_owner.open.push_back(face);
   of_owner.faces.push_back(face);
@@ -83,6 +92,7 @@ void PieceSearch::reach_face(Index front, Index face) {
 
 void PieceSearch::reach_node(Index front, Index node) {
   Index& mark = changed_cells_.marks()[node];
+  if (mark == front) return;
   const Index owner = sets_.find(front);
   if (mark != kNone) {
     join(owner, mark);
@@ -101,9 +111,11 @@ void PieceSearch::join(Index a, Index b) {
   a = sets_.find(a);
   b = sets_.find(b);
   if (a == b) return;
-  if (fronts_[a].faces.size() + fronts_[a].open.size() <
-      fronts_[b].faces.size() + fronts_[b].open.size())
-    std::swap(a, b);
+  const auto size = [&](Index front) {
+    const Front& of = fronts_[front];
+    return of.faces.size() + of.open.size() + of.at_change.size();
+  };
+  if (size(a) < size(b)) std::swap(a, b);
   sets_.unite(a, b);
   groups_.unite(groups_.find(a), groups_.find(b));
   Front &into = fronts_[a], &from = fronts_[b];
@@ -113,23 +125,37 @@ void PieceSearch::join(Index a, Index b) {
   }
   into.faces.insert(into.faces.end(), from.faces.begin(), from.faces.end());
   into.open.insert(into.open.end(), from.open.begin(), from.open.end());
+  into.at_change.insert(into.at_change.end(), from.at_change.begin(), from.at_change.end());
   if (from.measured > 0) into.measured = into.faces.size();
   into.triangles += from.triangles;
   into.area += from.area;
   into.least = std::min(into.least, from.least);
   from.faces.clear();
   from.open.clear();
+  from.at_change.clear();
 }
 
+/// Changed cells are entered from clean nodes last: by then most of them need not be.
 void PieceSearch::step(Index front) {
-  const Index newest = fronts_[front].open.back();
-  fronts_[front].open.pop_back();
-  if ((newest & kNode) != 0) {
-    leave_node(front, newest & ~kNode);
+  Front& of_front = fronts_[front];
+  if (of_front.open.empty()) {
+    const Index node = of_front.at_change.back();
+    of_front.at_change.pop_back();
+    enter_changed_cells(front, node);
     return;
   }
-  for (Index h = 3 * newest; h < 3 * newest + 3; ++h)
+  const Index newest = of_front.open.back();
+  of_front.open.pop_back();
+  if ((newest & kNode) != 0)
+    leave_node(front, newest & ~kNode);
+  else
+    leave_face(front, newest);
+}
+
+void PieceSearch::leave_face(Index front, Index face) {
+  for (Index h = 3 * face; h < 3 * face + 3; ++h)
     if (surface_.twin[h] != kNone) reach_face(front, surface_.twin[h] / 3);
+  if (face < surface_.first_triangle.back()) --cell_marks_[first_mark_of(cells_.cell_of(face))];
 }
 
 void PieceSearch::leave_node(Index front, Index node) {
@@ -140,7 +166,7 @@ void PieceSearch::leave_node(Index front, Index node) {
     else
       is_at_change = true;
   }
-  if (is_at_change) enter_changed_cells(front, node);
+  if (is_at_change) fronts_[sets_.find(front)].at_change.push_back(node);
 }
 
 /// Crosses from a clean node to its neighbours that hold changes.
@@ -159,12 +185,22 @@ void PieceSearch::enter_changed_cells(Index front, Index node) {
     }
     return;
   }
+  if (are_neighbours_left(node)) return;
   for (const Index face : cells_.faces(node))
     for (Index h = 3 * face; h < 3 * face + 3; ++h) {
       const Index twin = surface_.twin[h];
       if (twin != kNone && !changed_cells_.is_clean(cells_.cell_of(twin / 3)))
         reach_face(front, twin / 3);
     }
+}
+
+bool PieceSearch::are_neighbours_left(Index cell) const {
+  const std::span<const Index> others = cells_.neighbours(cell);
+  return std::all_of(others.begin(), others.end(), [&](Index other) {
+    if (changed_cells_.is_clean(other)) return true;
+    const Index first = changed_cells_.marks()[other];
+    return first != kNone && cell_marks_[first] == 0;
+  });
 }
 
 void PieceSearch::find_active() {

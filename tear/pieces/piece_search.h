@@ -38,8 +38,10 @@ class PieceSearch {
  private:
   /// Faces that are visited one by one, and clean nodes (with kNode).
   struct Front {
-    explicit Front(ScratchMemory& scratch) : open(&scratch), faces(&scratch) {}
-    ScratchVector<Index> open;   ///< Visited, but their neighbours are not.
+    explicit Front(ScratchMemory& scratch) : open(&scratch), at_change(&scratch), faces(&scratch) {}
+    ScratchVector<Index> open;  ///< Visited, but their neighbours are not.
+    ScratchVector<Index>
+        at_change;               ///< Clean nodes of which only changed neighbours are not visited.
     ScratchVector<Index> faces;  ///< All visited.
     std::size_t measured = 0;    ///< Number of faces whose areas were added.
     Index triangles = 0;
@@ -47,17 +49,24 @@ class PieceSearch {
     Index least = kNone;
   };
   static constexpr Index kNode = Index{1} << 31;
-  static constexpr std::size_t kStepsATurn = 8;
+  static constexpr std::size_t kStepsATurn = 16;
 
-  [[nodiscard]] bool is_active(Index front) const { return !fronts_[front].open.empty(); }
-  /// The value that marks a face: the front that visited it.
-  [[nodiscard]] Index& mark_of(Index face);
+  [[nodiscard]] bool is_active(Index front) const {
+    return !fronts_[front].open.empty() || !fronts_[front].at_change.empty();
+  }
   [[nodiscard]] Index first_mark_of(Index cell);
+  /// Adds the area of an appended face, or a bound of it, to area_of_faces_.
+  void bound_area_of(Index appended);
   void reach_face(Index front, Index face);
+  void visit_face(Index front, Index face, Index& mark);
   void reach_node(Index front, Index node);
   void step(Index front);
+  void leave_face(Index front, Index face);
   void leave_node(Index front, Index node);
   void enter_changed_cells(Index front, Index node);
+  /// Whether all faces of the changed cells next to a clean one were left, so that it is known
+  /// which front each of them belongs to.
+  [[nodiscard]] bool are_neighbours_left(Index cell) const;
   void join(Index a, Index b);
   void find_active();
   void measure(Front& front);
@@ -73,7 +82,8 @@ class PieceSearch {
   ScratchVector<Front> fronts_;
   /// Clean nodes that were visited, and changed cells that have marks of faces.
   ScratchVector<Index> marked_nodes_;
-  ScratchVector<Index> cell_marks_;      ///< Per face of those cells.
+  /// Of those cells: the number of faces that were not left, then a mark per face.
+  ScratchVector<Index> cell_marks_;
   ScratchVector<Index> appended_marks_;  ///< Per appended triangle.
   ScratchVector<Index> active_;          ///< The fronts that can still grow.
   /// Upper bound of the areas of visited faces; unknown once a front is in a wall or cap.

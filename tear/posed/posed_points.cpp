@@ -4,6 +4,13 @@
 #include "tear/internal/surface.h"
 
 namespace sunder::tear {
+namespace {
+
+/// A surface of fewer points stays in the cache of a core, where prefetching costs more than it
+/// saves.
+constexpr Index kCachedPoints = 8192;
+
+}  // namespace
 
 Status PosedPoints::begin(const Character& character, const ModelPose& pose) {
   if (Status status = pose_.set(character, pose); !status) return status;
@@ -44,6 +51,7 @@ void PosedPoints::fetch(const SurfaceEditor& editor, Index mesh,
                         std::span<const Index> origins) const {
   // Each loop reads what the previous one has prefetched.
   const Surface& surface = editor.surface();
+  if (surface.point_count() < kCachedPoints) return;
   const Mesh& of = editor.character().meshes[mesh];
   const Index source_count = editor.source().meshes[mesh].triangle_count();
   std::array<Index, 3 * std::size_t{PatchTree::kPatchSize}> corners;

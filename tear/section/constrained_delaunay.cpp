@@ -246,11 +246,13 @@ bool ConstrainedDelaunay::is_star_around(const Vec2d& point) {
   return true;
 }
 
-bool ConstrainedDelaunay::find_cavity(const Vec2d& point, Index from) {
+std::span<const ConstrainedDelaunay::CavityEdge> ConstrainedDelaunay::find_cavity(
+    const Vec2d& point, Index from) {
   const Index found = locate_inside(point, from);
-  if (found == kNone) return false;
+  if (found == kNone) return {};
   grow_cavity(found, point);
-  return is_star_around(point);
+  if (!is_star_around(point)) return {};
+  return rim_;
 }
 
 std::span<const Index> ConstrainedDelaunay::insert(const Vec2d& point) {

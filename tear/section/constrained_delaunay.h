@@ -49,11 +49,9 @@ class ConstrainedDelaunay {
   };
   /// Finds the triangles that a point would replace.
   /// @param from  an inside triangle near it.
-  /// @return false if the point cannot be inserted: it is not visible from `from`, or on a fixed
-  /// edge, or coincides with another one.
-  [[nodiscard]] bool find_cavity(const Vec2d& point, Index from);
-  /// The edges around the cavity of find_cavity().
-  [[nodiscard]] std::span<const CavityEdge> cavity_edges() const { return rim_; }
+  /// @return the edges around them. None if the point cannot be inserted: it is not visible from
+  /// `from`, or on a fixed edge, or coincides with another one.
+  [[nodiscard]] std::span<const CavityEdge> find_cavity(const Vec2d& point, Index from);
   /// Inserts the point of find_cavity(). @return its new triangles.
   std::span<const Index> insert(const Vec2d& point);
   /// Moves each point from `first` on, which were inserted, to the mean of its neighbours, if that
@@ -63,6 +61,9 @@ class ConstrainedDelaunay {
   [[nodiscard]] std::span<const Vec2d> points() const { return points_; }
   [[nodiscard]] Index triangle_count() const { return static_cast<Index>(origin_.size() / 3); }
   [[nodiscard]] bool is_inside(Index triangle) const { return inside_[triangle] == 1; }
+  /// The other half-edge between the ends of a half-edge. The half-edges of triangle t are 3 t + k,
+  /// from its corner k to the next one.
+  [[nodiscard]] Index twin(Index half_edge) const { return twin_[half_edge]; }
   /// Counter-clockwise.
   [[nodiscard]] Corners corners(Index triangle) const {
     return {origin_[3 * triangle], origin_[3 * triangle + 1], origin_[3 * triangle + 2]};

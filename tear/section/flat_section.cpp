@@ -39,6 +39,26 @@ struct Rim {
   std::pmr::vector<Index> ends;
 };
 
+/// Collects the triangles inside.
+void collect_inside(const ConstrainedDelaunay& triangulation, std::size_t count, FlatMesh& mesh,
+                    std::pmr::memory_resource& memory) {
+  mesh.triangles.reserve(count);
+  mesh.twins.reserve(3 * count);
+  std::pmr::vector<Index> number_of(triangulation.triangle_count(), kNone, &memory);
+  for (Index t = 0; t < number_of.size(); ++t) {
+    if (!triangulation.is_inside(t)) continue;
+    number_of[t] = static_cast<Index>(mesh.triangles.size());
+    mesh.triangles.push_back(triangulation.corners(t));
+  }
+  for (Index t = 0; t < number_of.size(); ++t) {
+    if (number_of[t] == kNone) continue;
+    for (Index h = 3 * t; h < 3 * t + 3; ++h) {
+      const Index twin = triangulation.twin(h), other = number_of[twin / 3];
+      mesh.twins.push_back(other == kNone ? kNone : 3 * other + twin % 3);
+    }
+  }
+}
+
 }  // namespace
 
 std::optional<FlatMesh> triangulate(std::span<const FlatLoop> loops, const FlatRegion& region,
@@ -66,9 +86,9 @@ std::optional<FlatMesh> triangulate(std::span<const FlatLoop> loops, const FlatR
   if (inner == InnerPoints::graded) add_graded_points(rim.ends, *triangulation, memory);
   const auto inner_points = triangulation->points().subspan(rim.points.size());
   mesh->inner.assign(inner_points.begin(), inner_points.end());
-  mesh->triangles.reserve(rim.points.size() + 2 * region.holes.size() + 2 * inner_points.size());
-  for (Index t = 0; t < triangulation->triangle_count(); ++t)
-    if (triangulation->is_inside(t)) mesh->triangles.push_back(triangulation->corners(t));
+  collect_inside(*triangulation,
+                 rim.points.size() + 2 * region.holes.size() + 2 * inner_points.size(), *mesh,
+                 memory);
   return mesh;
 }
 

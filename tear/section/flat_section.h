@@ -40,11 +40,15 @@ struct FlatRegion {
 /// The triangles of a region. Points are numbered: those of its loops, the outline first, then the
 /// holes in the given order, then `inner`.
 struct FlatMesh {
-  explicit FlatMesh(std::pmr::memory_resource& memory) : inner(&memory), triangles(&memory) {}
+  explicit FlatMesh(std::pmr::memory_resource& memory)
+      : inner(&memory), triangles(&memory), twins(&memory) {}
 
   std::pmr::vector<Vec2d> inner;
   /// Counter-clockwise, with an area that is exactly positive.
   std::pmr::vector<std::array<Index, 3>> triangles;
+  /// Per edge k of triangle t, from corner k to the next one, as 3 t + k: the same edge of the
+  /// other triangle; kNone on a loop.
+  std::pmr::vector<Index> twins;
 };
 
 enum class InnerPoints : std::uint8_t {

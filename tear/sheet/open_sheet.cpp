@@ -82,10 +82,9 @@ ScratchVector<Index> faces_across(const Sheet& sheet, const SurfaceEditor& edito
       return std::any_of(corners.begin(), corners.end(),
                          [&](const Vec3d& corner) { return side.contains(corner); });
     };
-    const bool is_across = has_corner_in(sheet.plane) &&
-                           std::any_of(corners.begin(), corners.end(), [&](const Vec3d& corner) {
-                             return !sheet.plane.contains(corner);
-                           });
+    const bool is_inside = sheet.plane.contains(corners[0]);
+    const bool is_across = sheet.plane.contains(corners[1]) != is_inside ||
+                           sheet.plane.contains(corners[2]) != is_inside;
     if (is_across &&
         std::all_of(sheet.bounds.begin(), sheet.bounds.end(),
                     [&](const Sheet::Bound& bound) { return has_corner_in(bound.side); }))

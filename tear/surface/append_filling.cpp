@@ -21,10 +21,10 @@ Index append_filling(Index mesh, Index submesh, const std::array<Index, 3>& poin
   const Index triangle = editor.connectivity.append_filling(
       {mesh, editor.character().meshes[mesh].triangle_count(), origin}, submesh, points, vertices);
   for (Index k = 0; k < 3; ++k) {
+    if (!editor.births.give_birth(mesh, vertices[k], origin, k)) continue;  // of an earlier one
     editor.sides.write(mesh, vertices[k], surface.side(points[k]));
     if (surface.point_corner[points[k]] == kNone)
       editor.connectivity.set_point_corner(points[k], 3 * triangle + k);
-    editor.births.give_birth(mesh, vertices[k], origin, k);
   }
   return triangle;
 }

@@ -123,11 +123,12 @@ Index Births::append_filling_vertex(Index mesh, Index like) {
   return vertex;
 }
 
-void Births::give_birth(Index mesh, Index vertex, Index filling, Index corner) {
+bool Births::give_birth(Index mesh, Index vertex, Index filling, Index corner) {
   Birth& birth = columns_.meshes[mesh].births[vertex - source_.meshes[mesh].vertex_count()];
-  if (birth.triangle != kNone) return;
+  if (birth.triangle != kNone) return false;
   birth = {filling, {0, 0, 0}};
   birth.barycentric[corner] = 1;
+  return true;
 }
 
 void Births::remove_newest(Index mesh) {

@@ -99,7 +99,8 @@ class Births {
   /// by birth; the caller changes them. It gets its birth when a filling uses it. Makes room.
   [[nodiscard]] Index append_filling_vertex(Index mesh, Index like);
   /// Sets the birth of a vertex that a filling uses as one of its corners (0, 1, 2).
-  void give_birth(Index mesh, Index vertex, Index filling, Index corner);
+  /// @return false if an earlier filling uses the vertex; then its birth stays.
+  bool give_birth(Index mesh, Index vertex, Index filling, Index corner);
   void remove_newest(Index mesh);
   /// Sets the original of the newest vertex of a mesh.
   void set_original_of_newest(Index mesh, const VertexRef& original) {

@@ -42,7 +42,8 @@ void improve_faces(const EditLog::Mark& since, SurfaceEditor& editor) {
         open.push_back(h);
   };
   editor.log.for_each_changed(since, add);
-  for (Index face = since.triangles; face < surface.triangle_count(); ++face) add(face);
+  for (Index face = since.triangles; face < surface.triangle_count(); ++face)
+    if (editor.origins.parent(face) != kNone) add(face);  // a whole filling has no inner edge
   std::size_t turns_left = 16 * editor.log.numbers_since(since);
   while (!open.empty() && turns_left > 0) {
     const Index h = open.back();

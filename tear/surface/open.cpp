@@ -163,9 +163,11 @@ void open_edges(std::span<const PointEdge> edges, std::span<const Index> half_ed
     for (std::size_t fan = 1; fan < fans.count(); ++fan)
       opened.push_back({joint, {separate_fan(fans.corners(fan), fans.others(fan), editor), at}});
   });
-  std::sort(opened.begin(), opened.end(), [](const OpenedJoint& a, const OpenedJoint& b) {
+  const auto is_before = [](const OpenedJoint& a, const OpenedJoint& b) {
     return a.joint != b.joint ? a.joint < b.joint : a.lips.left < b.lips.left;
-  });
+  };
+  if (!std::is_sorted(opened.begin(), opened.end(), is_before))
+    std::sort(opened.begin(), opened.end(), is_before);
   for (const OpenedJoint& joint : opened) lips.push_back(joint.lips);
 }
 

@@ -43,11 +43,45 @@ class Leaving {
   ScratchVector<Index> ends_;
 };
 
+/// The number of half-edges at the beginning that are a closed chain, one after the other; 0 if
+/// there is none.
+template <class Begins, class Ends>
+std::size_t closed_chain(std::span<const Index> half_edges, Begins begins, Ends ends) {
+  for (std::size_t i = 0; i < half_edges.size(); ++i) {
+    if (ends(half_edges[i]) == begins(half_edges[0])) return i + 1;
+    if (i + 1 == half_edges.size() || ends(half_edges[i]) != begins(half_edges[i + 1])) return 0;
+  }
+  return 0;
+}
+
+/// Chains half-edges that are in order, as those of a cut are on one side, or in reversed order, as
+/// on the other. @return false if not all are in closed chains in order.
+bool chain_in_order(std::span<const Index> half_edges, const Surface& surface,
+                    ScratchMemory& scratch, ScratchVector<Rim>& rims) {
+  const auto begins = [&](Index h) { return surface.corner_point[h]; };
+  const auto ends = [&](Index h) { return surface.corner_point[Surface::next(h)]; };
+  while (!half_edges.empty()) {
+    std::size_t count = closed_chain(half_edges, begins, ends);
+    const bool is_forward = count != 0;
+    if (!is_forward) count = closed_chain(half_edges, ends, begins);
+    if (count == 0) return false;
+    Rim& rim = rims.emplace_back(scratch);
+    rim.is_closed = true;
+    rim.half_edges.assign(half_edges.begin(),
+                          half_edges.begin() + static_cast<std::ptrdiff_t>(count));
+    if (!is_forward) std::reverse(rim.half_edges.begin() + 1, rim.half_edges.end());
+    half_edges = half_edges.subspan(count);
+  }
+  return true;
+}
+
 }  // namespace
 
 ScratchVector<Rim> chain_rims(std::span<const Index> half_edges, const Surface& surface,
                               ScratchMemory& scratch) {
   ScratchVector<Rim> rims(&scratch);
+  if (chain_in_order(half_edges, surface, scratch, rims)) return rims;
+  rims.clear();
   Leaving leaving(half_edges, surface, scratch);
   // All chains together are as long as the input, so they are written in one array first.
   ScratchVector<Index> chain(&scratch);

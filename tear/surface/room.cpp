@@ -148,9 +148,14 @@ void Room::find_for_triangles(Index mesh, Index count) {
   known_.triangles_of = mesh;
 }
 
-void Room::make_for_additions(Index mesh) {
-  make_in_columns(mesh, 1, "triangles", [](Rows rows) { return rows == Rows::mesh_fillings; });
-  make_in_columns(mesh, 2, "walls and caps", [](Rows rows) { return rows == Rows::additions; });
+void Room::find_for_additions(Index mesh) {
+  // Two additions per filling: the second is for a submesh, or for the tear sides of a mesh.
+  const std::size_t fillings =
+      make_in_columns(mesh, 1, "triangles", [](Rows rows) { return rows == Rows::mesh_fillings; });
+  const std::size_t additions =
+      make_in_columns(mesh, 2, "walls and caps", [](Rows rows) { return rows == Rows::additions; });
+  known_.additions_of = mesh;
+  known_.additions = std::min(fillings, additions / 2);
 }
 
 void Room::make_for_kept_birth(std::size_t influences) {
@@ -166,8 +171,8 @@ void Room::make_for_influences(Index mesh, std::size_t more) {
   if (influences.capacity() - influences.size() < more) grow(influences, more, nullptr);
 }
 
-void Room::make_for_point() {
-  make_in_columns(0, 1, "points", [](Rows rows) { return rows == Rows::points; });
+void Room::find_for_point() {
+  known_.points = make_in_columns(0, 1, "points", [](Rows rows) { return rows == Rows::points; });
 }
 
 void Room::make_for_tails(const ColumnTails& tails) {

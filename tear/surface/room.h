@@ -2,6 +2,8 @@
 
 #include <sunder/tear/torn_model.h>
 
+#include <algorithm>
+
 #include "tear/surface/capacity_exceeded.h"
 #include "tear/surface/edit_columns.h"
 
@@ -26,6 +28,7 @@ class Room {
       find_for_vertices(mesh, count, influences);
     known_.vertices -= count;
     known_.influences -= influences;
+    known_.points -= std::min<std::size_t>(known_.points, count);
   }
   void make_for_triangles(Index mesh, Index count) {
     if (known_.triangles_of != mesh || known_.triangles < count) find_for_triangles(mesh, count);
@@ -37,13 +40,19 @@ class Room {
     if (changes.capacity() - changes.size() < count) grow(changes, count, "changes of triangles");
   }
   /// Makes room for a filling and a submesh.
-  void make_for_additions(Index mesh);
+  void make_for_additions(Index mesh) {
+    if (known_.additions_of != mesh || known_.additions == 0) find_for_additions(mesh);
+    --known_.additions;
+  }
   /// Makes room for one more kept birth. It is not limited, because only policies keep births and
   /// the number of vertices is limited.
   void make_for_kept_birth(std::size_t influences);
   void make_for_influences(Index mesh, std::size_t more);
   /// Makes room for a point without a vertex.
-  void make_for_point();
+  void make_for_point() {
+    if (known_.points == 0) find_for_point();
+    --known_.points;
+  }
   /// Makes room for the rows that undo kept, and for those that redo recomputes.
   void make_for_tails(const ColumnTails& tails);
   /// To be called after columns grew in another way.
@@ -55,14 +64,16 @@ class Room {
  private:
   /// A lower bound of the room: the room found last, minus the room requested since.
   struct Known {
-    Index vertices_of = kNone, triangles_of = kNone;  ///< The mesh.
-    std::size_t vertices = 0, influences = 0, triangles = 0;
+    Index vertices_of = kNone, triangles_of = kNone, additions_of = kNone;  ///< The mesh.
+    std::size_t vertices = 0, influences = 0, triangles = 0, additions = 0, points = 0;
   };
 
   void find_for_vertices(Index mesh, Index count, Index influences);
   void make_for_tear_sides(Index mesh, std::size_t count);
   void make_in_mesh(Index mesh, std::size_t count, std::size_t influences);
   void find_for_triangles(Index mesh, Index count);
+  void find_for_additions(Index mesh);
+  void find_for_point();
   template <class IsMeant>
   std::size_t make_in_columns(Index mesh, std::size_t count, const char* what, IsMeant is_meant);
   template <class Value>

@@ -175,6 +175,16 @@ void expect_constrained_delaunay(std::span<const FlatLoop> loops, const FlatRegi
   }
   ASSERT_EQ(std::count(is_used.begin(), is_used.end(), 1),
             static_cast<std::ptrdiff_t>(points.size()));
+  ASSERT_EQ(mesh.twins.size(), 3 * mesh.triangles.size());
+  for (Index edge = 0; edge < mesh.twins.size(); ++edge) {
+    const auto begin_of = [&](Index e) { return mesh.triangles[e / 3][e % 3]; };
+    const auto end_of = [&](Index e) { return mesh.triangles[e / 3][(e + 1) % 3]; };
+    const Index twin = mesh.twins[edge];
+    ASSERT_EQ(twin == kNone, apex.count({end_of(edge), begin_of(edge)}) == 0);
+    if (twin == kNone) continue;
+    ASSERT_EQ(begin_of(twin), end_of(edge));
+    ASSERT_EQ(end_of(twin), begin_of(edge));
+  }
 
   double expected_area = 0;
   std::set<std::pair<Index, Index>> loop_edges;
@@ -539,6 +549,32 @@ TEST(Triangulate, inner_points_are_sparser_inwards) {
         const double depth = std::max(0.0, 1 - points[t[k]].norm());
         EXPECT_LT((points[t[k]] - points[t[(k + 1) % 3]]).norm(), 4 * rim_spacing + 2 * depth);
       }
+  }
+}
+
+TEST(Triangulate, short_edges_make_no_slivers) {
+  // Where a plane passes a vertex of the surface at a small distance, two edges of the rim are as
+  // short.
+  Random random(5);
+  for (const double shortest : {2e-2, 1e-2}) {
+    SCOPED_TRACE(shortest);
+    constexpr Index kEdges = 200;
+    std::vector<FlatLoop> disc(1);
+    const double step = 2 * std::numbers::pi / kEdges;
+    for (Index i = 0; i < kEdges; ++i) {
+      disc[0].push_back(polar(i * step, 1));
+      if (i % 10 != 0) continue;
+      const double length = step * random.uniform(0.5, 1) * shortest;
+      disc[0].push_back(polar(i * step + length, 1));
+      disc[0].push_back(polar(i * step + 2 * length, 1));
+    }
+    const auto rim = static_cast<Index>(disc[0].size());
+    const auto mesh = triangulate(disc, {0, {}}, InnerPoints::graded);
+    ASSERT_TRUE(mesh);
+    expect_constrained_delaunay(disc, {0, {}}, *mesh);
+    expect_inner_points_in_place(disc, {0, {}}, *mesh);
+    EXPECT_LT(mesh->inner.size(), 2 * rim);
+    EXPECT_GT(inner_angles(all_points(disc, {0, {}}, *mesh), rim, *mesh).front(), 1.2);
   }
 }
 
