@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/internal/ordered.h"
 #include "tear/geometry/tolerances.h"
 
 namespace sunder::tear {
@@ -14,53 +15,75 @@ constexpr std::size_t kPoints = 256;
 }  // namespace
 
 CellSides::CellSides(std::span<const PlaneSide> cell, const SurfaceEditor& editor,
-                     PosedPoints& posed)
+                     PosedPoints& posed, const Core& core)
     : cell_(cell),
       editor_(editor),
       posed_(posed),
+      core_(core),
       words_(std::max(Index{1}, (static_cast<Index>(cell.size()) + kBits - 1) / kBits)),
-      planes_(&editor.scratch()),
+      planes_((cell.size() + kLanes - 1) / kLanes, &editor.scratch()),
       places_(kPoints, editor.scratch()),
+      positions_(&editor.scratch()),
       bits_(&editor.scratch()) {
-  planes_.reserve(cell.size());
-  for (const auto& [normal, offset] : cell)
-    planes_.push_back(
-        {normal.x(), normal.y(), normal.z(), offset,
-         2 * kOnPlaneTerms * (std::abs(normal.x()) + std::abs(normal.y()) + std::abs(normal.z())),
-         2 * kOnPlaneTerms * std::abs(offset)});
+  for (Index i = 0; i < cell.size(); ++i) {
+    const auto& [normal, offset] = cell[i];
+    Planes& planes = planes_[i / kLanes];
+    const Index lane = i % kLanes;
+    planes.x[lane] = normal.x();
+    planes.y[lane] = normal.y();
+    planes.z[lane] = normal.z();
+    planes.offset[lane] = offset;
+    planes.steepness[lane] =
+        2 * kOnPlaneTerms * (std::abs(normal.x()) + std::abs(normal.y()) + std::abs(normal.z()));
+    planes.rounding[lane] = 2 * kOnPlaneTerms * std::abs(offset);
+  }
+  positions_.reserve(kPoints);
   bits_.reserve(2 * words_ * kPoints);
 }
 
 Index CellSides::place_of(Index point) {
-  const auto place = static_cast<Index>(bits_.size());
+  const auto place = static_cast<Index>(positions_.size());
   const Index known = places_.insert(point, place);
   if (known != kNone) return known;
-  compare(posed_.position(editor_, point));
+  compare(positions_.emplace_back(posed_.position(editor_, point)));
   return place;
+}
+
+bool CellSides::is_in_core(const Vec3d& position, double reach) const {
+  const double radius =
+      core_.radius - kPosedCoordinates * (reach + core_.origin.cwiseAbs().maxCoeff());
+  return radius > 0 && squared_norm((position - core_.origin).cross(core_.axis)) < radius * radius;
 }
 
 void CellSides::compare(const Vec3d& position) {
   const double x = position.x(), y = position.y(), z = position.z();
   const double reach = position.cwiseAbs().maxCoeff();
-  const std::size_t begin = bits_.size(), count = cell_.size();
+  const std::size_t begin = bits_.size();
   bits_.resize(begin + 2 * words_);
   Word* const outside = &bits_[begin];
   Word* const inside = outside + words_;
-  for (std::size_t first = 0, word = 0; first < count; first += kBits, ++word) {
-    const std::size_t end = std::min<std::size_t>(count, first + kBits);
-    Word is_inside = 0, is_doubtful = 0;
-    for (std::size_t i = first; i < end; ++i) {
-      const Plane& plane = planes_[i];
-      const double value = plane.x * x + plane.y * y + plane.z * z - plane.offset;
-      // At least what contains() allows for rounding.
-      const double rounding = plane.steepness * reach + plane.least_rounding;
-      is_inside |= Word{value > rounding} << (i - first);
-      is_doubtful |= Word{!(std::abs(value) > rounding)} << (i - first);
+  const Index known = is_in_core(position, reach) ? core_.sides : 0;
+  for (Index i = 0; i < known / kBits; ++i) inside[i] = ~Word{0};
+  if (known % kBits != 0) inside[known / kBits] = (Word{1} << known % kBits) - 1;
+  const auto count = static_cast<Index>(cell_.size());
+  for (Index first = known / kLanes * kLanes; first < count; first += kLanes) {
+    const Planes& planes = planes_[first / kLanes];
+    std::array<double, kLanes> value, rounding;  // at least what contains() allows for rounding
+    for (Index i = 0; i < kLanes; ++i) {
+      value[i] = planes.x[i] * x + planes.y[i] * y + planes.z[i] * z - planes.offset[i];
+      rounding[i] = planes.steepness[i] * reach + planes.rounding[i];
     }
-    inside[word] = is_inside;
-    outside[word] = ~(is_inside | is_doubtful) & all(static_cast<Index>(word));
-    for_each_bit(is_doubtful, static_cast<Index>(word), [&](Index side) {
-      if (!cell_[side].contains(position)) outside[word] |= Word{1} << (side % kBits);
+    Word is_inside = 0, is_outside = 0;
+    for (Index i = 0; i < kLanes; ++i) {
+      is_inside |= Word{value[i] > rounding[i]} << i;
+      is_outside |= Word{value[i] < -rounding[i]} << i;
+    }
+    inside[first / kBits] |= is_inside << first % kBits;
+    outside[first / kBits] |= is_outside << first % kBits;
+    const Word exist = (Word{1} << std::min(kLanes, count - first)) - 1;
+    for_each_bit(~(is_inside | is_outside) & exist, 0, [&](Index side) {
+      if (!cell_[first + side].contains(position))
+        outside[first / kBits] |= Word{1} << (first + side) % kBits;
     });
   }
 }

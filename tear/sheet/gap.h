@@ -23,7 +23,7 @@ template <class MayHoldAny>
 
 /// The faces of which a part lies inside a cell and that are connected to the seeds inside it,
 /// ascending.
-/// @param is_wanted  is_wanted(face): whether the search may enter a face.
+/// @param is_wanted  is_wanted(cell face): whether the search may enter a face.
 template <class IsWanted>
 [[nodiscard]] ScratchVector<CellFace> faces_in_cell(CellSides& sides, std::span<const Index> seeds,
                                                     IsWanted is_wanted);
@@ -83,7 +83,7 @@ ScratchVector<CellFace> faces_in_cell(CellSides& sides, std::span<const Index> s
   ScratchVector<CellFace> faces(&sides.memory());
   IndexMap seen(4 * seeds.size(), sides.memory());
   const auto visit = [&](const CellFace& face) {
-    if (is_wanted(face.face)) faces.push_back(face);
+    if (is_wanted(face)) faces.push_back(face);
   };
   for (const Index seed : seeds) {
     if (surface.has_repeated_point(seed)) continue;
@@ -94,8 +94,10 @@ ScratchVector<CellFace> faces_in_cell(CellSides& sides, std::span<const Index> s
     const CellFace face = faces[i];
     for (Index k = 0; k < 3; ++k) {
       const Index twin = surface.twin[3 * face.face + k];
-      if (twin != kNone && is_edge_in_cell(face, k, sides) && seen.insert(twin / 3, 0) == kNone)
-        visit({twin / 3, sides.places_of(twin / 3)});
+      if (twin == kNone || seen.find(twin / 3) != kNone || !is_edge_in_cell(face, k, sides))
+        continue;
+      seen.insert(twin / 3, 0);
+      visit({twin / 3, sides.places_of(twin / 3)});
     }
   }
   sort_faces(faces);

@@ -43,7 +43,8 @@ void separate(std::span<const Fan> fans, SurfaceEditor& editor, PosedPoints& pos
 
 }  // namespace
 
-RemovedFaces::RemovedFaces(std::span<const Index> faces, const SurfaceEditor& editor)
+RemovedFaces::RemovedFaces(std::span<const Index> faces, const SurfaceEditor& editor,
+                           DisjointSets* connected)
     : faces_(faces), number_(faces.size(), editor.scratch()), border_(&editor.scratch()) {
   for (Index i = 0; i < faces.size(); ++i) number_.insert(faces[i], i);
   border_.reserve(faces.size());
@@ -51,7 +52,12 @@ RemovedFaces::RemovedFaces(std::span<const Index> faces, const SurfaceEditor& ed
   for (Index i = 0; i < faces.size(); ++i)
     for (Index h = 3 * faces[i]; h < 3 * faces[i] + 3; ++h) {
       const Index twin = surface.twin[h];
-      if (twin != kNone && find(twin / 3) == kNone) border_.push_back({twin, i});
+      if (twin == kNone) continue;
+      const Index other = find(twin / 3);
+      if (other == kNone)
+        border_.push_back({twin, i});
+      else if (connected != nullptr && other < i)
+        connected->unite_with_lesser(i, other);
     }
 }
 
