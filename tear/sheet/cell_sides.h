@@ -110,23 +110,29 @@ class CellSides {
  private:
   /// Half-spaces that are compared at once.
   static constexpr Index kLanes = 4;
-  /// Half-spaces, each with what bounds the rounding of a value: a coordinate's largest share in
-  /// it, and the rest. Missing ones contain everything.
+  using Lanes = Eigen::Array<float, kLanes, 1>;
+  /// Half-spaces relative to the origin, each with what bounds the rounding of a value: the share
+  /// of a point's largest coordinate in it, and the rest. Where nothing can be told in floats, the
+  /// rest is larger than any value.
   struct Planes {
-    std::array<double, kLanes> x = {}, y = {}, z = {}, offset = {}, steepness = {}, rounding = {};
+    Lanes x, y, z, offset, steepness, rounding;
   };
 
+  void begin_at(const Vec3d& origin);
   /// @return the point's number.
   Index place_of(Index point);
   void compare(const Vec3d& position);
+  /// Compares a point with single half-spaces of a word, in double.
+  void compare(const Vec3d& position, Word sides, Index word, Word& outside, Word& inside) const;
   /// Whether a point certainly lies in the first half-spaces, without a look at them.
-  [[nodiscard]] bool is_in_core(const Vec3d& position, double reach) const;
+  [[nodiscard]] bool is_in_core(const Vec3d& position) const;
 
   std::span<const PlaneSide> cell_;
   const SurfaceEditor& editor_;
   PosedPoints& posed_;
   Core core_;
   Index words_;
+  Vec3d origin_ = Vec3d::Zero();  ///< The first point.
   ScratchVector<Planes> planes_;
   IndexMap places_;
   ScratchVector<Vec3d> positions_;  ///< Per point.
@@ -137,6 +143,7 @@ class CellSides {
 struct CellFace {
   Index face;
   CellSides::Places places;
+  bool is_inside = false;  ///< Whether it certainly lies in the cell.
 };
 
 }  // namespace sunder::tear

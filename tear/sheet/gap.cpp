@@ -52,7 +52,9 @@ Index side_of_edge(std::span<const PlaneSide> cell, const Vec3d& a, const Vec3d&
   Index nearest = kNone;
   double least = std::numeric_limits<double>::infinity();
   for (Index side = 0; side < cell.size(); ++side) {
-    const double away = std::max(std::abs(cell[side].value(a)), std::abs(cell[side].value(b)));
+    double away = std::abs(cell[side].value(a));
+    if (away >= least) continue;
+    away = std::max(away, std::abs(cell[side].value(b)));
     if (away >= least) continue;
     nearest = side;
     least = away;
@@ -129,13 +131,12 @@ class FacesInside {
     };
     for (Index i = 0; i < faces_.size(); ++i) {
       const Index face = faces_[i].face;
-      const CellSides::OfFace of = sides_.at(faces_[i].places);
-      if (sides_.is_surely_inside(of)) {  // and therefore as it was
+      if (faces_[i].is_inside) {  // and therefore as it was
         add(face, corners_of(faces_[i], sides_));
         continue;
       }
       crossed_.insert(face, i);
-      add_if_inside(face, of);
+      add_if_inside(face, sides_.at(faces_[i].places));
     }
     for (Index t = first; t < end; ++t) {
       const Index ancestor = crossed_.find(editor.stage.ancestor(t));
@@ -185,8 +186,10 @@ bool is_edge_in_cell(const CellFace& face, Index k, CellSides& sides) {
   return !is_beside && end - begin > kInCellEdges;
 }
 
-bool is_face_in_cell(const CellFace& face, CellSides& sides) {
+bool is_face_in_cell(CellFace& face, CellSides& sides) {
   const CellSides::OfFace of = sides.at(face.places);
+  face.is_inside = sides.is_surely_inside(of);
+  if (face.is_inside) return true;
   if (sides.is_beyond(of)) return false;
   // What is left around a corner inside always has an area.
   if (sides.has_corner_surely_inside(of)) return true;

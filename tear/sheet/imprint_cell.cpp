@@ -140,6 +140,7 @@ class Imprint {
   [[nodiscard]] const PlaneSide& side(Index number) const { return sides_.cell()[number]; }
 
   void add_face(const CellFace& added) {
+    if (added.is_inside) return;
     const Index triangle = added.face;
     const CellSides::OfFace of = sides_.at(added.places);
     if (sides_.is_beyond(of)) return;
