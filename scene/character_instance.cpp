@@ -64,7 +64,12 @@ Result<CharacterInstance> CharacterInstance::create(std::shared_ptr<const Charac
 
 Status CharacterInstance::prepare_to_tear() { return state_->require_torn(); }
 
-Status CharacterInstance::pack() { return state_->torn ? state_->torn->model.pack() : Status(); }
+Status CharacterInstance::pack() {
+  if (!state_->torn) return {};
+  if (Status status = state_->torn->model.pack(); !status) return status;
+  state_->release_scratch();
+  return {};
+}
 
 // ---- Operations.
 
