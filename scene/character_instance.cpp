@@ -70,7 +70,10 @@ Status CharacterInstance::prepare_to_tear() {
 
 Status CharacterInstance::pack() {
   const MemoryScope scope(state_->memory);
-  return state_->torn ? state_->torn->model.pack() : Status();
+  if (!state_->torn) return {};
+  if (Status status = state_->torn->model.pack(); !status) return status;
+  state_->release_scratch();
+  return {};
 }
 
 // ---- Operations.

@@ -70,6 +70,8 @@ struct CharacterInstance::State {
   Status draw_mesh(Index mesh, const ParallelFor& parallel_for);
   Status draw(const ParallelFor& parallel_for);
   [[nodiscard]] std::size_t memory_bytes() const;
+  /// Returns memory that only the next operation would use.
+  void release_scratch() noexcept { scratch_ = {}; }
 
   /// Makes one call that tears, and passes its record on to the particles and the meshes.
   template <class Call>

@@ -36,8 +36,8 @@ std::unique_ptr<Structure> Structure::copy() const {
 
 std::unique_ptr<Structure> Structure::fork() const {
   std::unique_ptr<Structure> made = copy();
-  made->points.memberships.shrink(points.memberships_end);
-  made->points.memberships_end = points.memberships_end;
+  made->points.ends = points.ends;
+  made->points.drop_undone();
   made->journal = journal;
   made->dirty.clear();
   made->tears.done.resize(tears.done.size());

@@ -91,6 +91,8 @@ static_assert(kBetterShapeFactor > 1);
 
 /// A point that rounding cannot tell from a plane lies on it.
 inline constexpr double kOnPlaneTerms = 2e-15;
+/// A point that floats cannot tell from a plane is compared with it in double: 16 roundings.
+inline constexpr double kInFloatTerms = 1e-6;
 /// A point nearer to a line of its face is on it.
 inline constexpr double kOnLineSizes = 1e-10;
 /// A place that misses its face by less is in it.

@@ -179,6 +179,7 @@ void TornModel::State::record(const tear::EditLog::Mark& begin) {
   if (editor.log.numbers_since(begin) == 0) return;  // nothing changed
   history.filled().begin = begin;
   history.push(borders_.of_operation);
+  editor.drop_inner_changes(begin);
 }
 
 Status validate_blade(const Blade& blade, std::uint32_t index) {

@@ -13,6 +13,8 @@ namespace sunder::tear {
 namespace {
 
 constexpr std::size_t kMostSides = 1536;
+/// Radius of the prism's core, by the distance of its sides from the axis.
+constexpr double kCoreRadii = 0.999;
 
 /// Unit vectors to the corners of a regular polygon whose sides come within `tolerance` (a fraction
 /// of the radius) of the circle: a hexagon whose arcs are halved until they do. Uses only square
@@ -37,14 +39,20 @@ ScratchVector<Vec3d> circle_corners(const Vec3d& x, const Vec3d& y, double toler
 }
 
 /// The sides of the prism, then its two ends.
-ScratchVector<PlaneSide> cell_of(const Bore& bore, ScratchMemory& memory) {
+struct Prism {
+  ScratchVector<PlaneSide> cell;
+  CellSides::Core core;
+};
+
+Prism prism_of(const Bore& bore, ScratchMemory& memory) {
   const Vec3d axis = bore.direction / norm(bore.direction);
   const Vec3d away = std::abs(axis.x()) < 0.5 ? Vec3d(Vec3d::UnitX()) : Vec3d(Vec3d::UnitY());
   const Vec3d across = axis.cross(away);
   const Vec3d x = across / norm(across), y = axis.cross(x);
   const auto corners = circle_corners(
       x, y, bore.chord_tolerance > 0 ? bore.chord_tolerance / bore.radius : 0.01, memory);
-  ScratchVector<PlaneSide> cell(&memory);
+  Prism prism{ScratchVector<PlaneSide>(&memory), {bore.origin, axis, 0.0, 0}};
+  auto& [cell, core] = prism;
   cell.reserve(corners.size() + 2);
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Vec3d &a = corners[i], &b = corners[(i + 1) % corners.size()];
@@ -54,7 +62,9 @@ ScratchVector<PlaneSide> cell_of(const Bore& bore, ScratchMemory& memory) {
   }
   cell.push_back({axis, dot(axis, bore.origin)});
   cell.push_back({-axis, -(dot(axis, bore.origin) + bore.depth)});
-  return cell;
+  core.sides = static_cast<Index>(corners.size());
+  core.radius = kCoreRadii * norm(0.5 * bore.radius * (corners[0] + corners[1]));
+  return prism;
 }
 
 }  // namespace
@@ -118,8 +128,8 @@ class BoreReach {
 
 GapRemoval remove_bore(const Bore& bore, const Workpiece& work) {
   const ScratchMemory::Frame memory_of_step(work.editor.scratch());
-  const auto cell = cell_of(bore, work.editor.scratch());
-  CellSides sides(cell, work.editor, work.posed);
+  const auto [cell, core] = prism_of(bore, work.editor.scratch());
+  CellSides sides(cell, work.editor, work.posed, core);
   const BoreReach reach(bore, work.posed, work.editor);
   const auto faces =
       faces_in_cell(sides, reach.frame(), [&](const FrameBox& box) { return reach.may_meet(box); });

@@ -253,14 +253,12 @@ ScratchVector<CellFace> GapBand::faces_to_remove(CellSides& sides, const Pending
   // The blade is as wide as the gap, and where the surface wrinkles it takes the wrinkle away. But
   // a face that turns its back on the blade far below the tear belongs to another layer, which the
   // nearest one hides; unless the tear itself goes across it.
-  const auto is_same_layer = [&](Index face) {
-    if (is_seed.find(face) != kNone) return true;
-    std::array<Vec3d, 3> corners;
-    for (Index k = 0; k < 3; ++k)
-      corners[k] = sides.posed().position(editor, surface.corner_point[3 * face + k]);
-    const Vec3d normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-    if (dot(normal, gap.plane->along()) <= 0) return true;
-    const Vec2d middle = gap.plane->project((corners[0] + corners[1] + corners[2]) / 3);
+  const auto is_same_layer = [&](const CellFace& face) {
+    const Vec3d &a = sides.position(face.places[0]), &b = sides.position(face.places[1]),
+                &c = sides.position(face.places[2]);
+    if (dot((b - a).cross(c - a), gap.plane->along()) <= 0 || is_seed.find(face.face) != kNone)
+      return true;
+    const Vec2d middle = gap.plane->project((a + b + c) / 3);
     return middle.y() - depth_at(gap.section, middle.x()) < kOtherLayerWidths * width_;
   };
   return faces_in_cell(sides, seeds, is_same_layer);

@@ -1,5 +1,7 @@
 #include "tear/posed/posed_points.h"
 
+#include <cstdint>
+
 #include "core/internal/prefetch.h"
 #include "tear/internal/surface.h"
 
@@ -62,16 +64,21 @@ void PosedPoints::fetch(const SurfaceEditor& editor, Index mesh,
     prefetch(&surface.corner_point[first]);
     for (Index k = 0; k < 3; ++k) corners[count++] = first + k;
   }
-  const std::span<Index> points = std::span(corners).first(count);
-  for (Index& corner : points) {
-    corner = surface.corner_point[corner];
-    if (corner >= known_.size()) continue;
-    prefetch(&known_[corner]);
-    prefetch(&surface.point_corner[corner]);
+  // The faces share most of their points. A bit that two of them have in common costs no more than
+  // a prefetch.
+  std::uint64_t met = 0;
+  std::size_t point_count = 0;
+  for (const Index corner : std::span(corners).first(count)) {
+    const Index point = surface.corner_point[corner];
+    const std::uint64_t bit = std::uint64_t{1} << point % 64;
+    if ((met & bit) != 0 || point >= known_.size()) continue;
+    met |= bit;
+    corners[point_count++] = point;
+    prefetch(&known_[point]);
+    prefetch(&surface.point_corner[point]);
   }
-  const auto is_wanted = [&](Index point) {
-    return point < known_.size() && known_[point].since != epoch_;
-  };
+  const std::span<Index> points = std::span(corners).first(point_count);
+  const auto is_wanted = [&](Index point) { return known_[point].since != epoch_; };
   std::size_t vertex_count = 0;
   for (const Index point : points) {
     if (!is_wanted(point)) continue;

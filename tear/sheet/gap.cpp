@@ -21,6 +21,12 @@ Corners posed_corners(Index face, CellSides& sides) {
   return {at(points[0]), at(points[1]), at(points[2])};
 }
 
+/// The corners of a face that is as it was.
+Corners corners_of(const CellFace& face, const CellSides& sides) {
+  return {sides.position(face.places[0]), sides.position(face.places[1]),
+          sides.position(face.places[2])};
+}
+
 /// A convex polygon that is clipped in turn by half-spaces. A triangle gains at most one corner by
 /// each of them.
 struct Polygon {
@@ -46,7 +52,9 @@ Index side_of_edge(std::span<const PlaneSide> cell, const Vec3d& a, const Vec3d&
   Index nearest = kNone;
   double least = std::numeric_limits<double>::infinity();
   for (Index side = 0; side < cell.size(); ++side) {
-    const double away = std::max(std::abs(cell[side].value(a)), std::abs(cell[side].value(b)));
+    double away = std::abs(cell[side].value(a));
+    if (away >= least) continue;
+    away = std::max(away, std::abs(cell[side].value(b)));
     if (away >= least) continue;
     nearest = side;
     least = away;
@@ -60,27 +68,19 @@ Index side_of_edge(std::span<const PlaneSide> cell, const Vec3d& a, const Vec3d&
 /// The parts of removed faces that are connected by edges.
 class RemovedParts {
  public:
-  RemovedParts(std::span<const Index> faces, const RemovedFaces& removed, CellSides& sides,
+  /// @param areas  per face, its posed area vector.
+  /// @param sets  the faces that are connected.
+  RemovedParts(std::span<const Vec3d> areas, DisjointSets& sets, ScratchMemory& memory,
                CellRim& rim)
-      : part_of_(faces.size(), kNone, &sides.memory()) {
-    const Surface& surface = sides.editor().surface();
-    const auto count = static_cast<Index>(faces.size());
-    DisjointSets sets(count, sides.memory());
-    for (Index i = 0; i < count; ++i)
-      for (Index h = 3 * faces[i]; h < 3 * faces[i] + 3; ++h) {
-        if (surface.twin[h] == kNone || surface.twin[h] < h) continue;  // each edge once
-        const Index other = removed.find(surface.twin[h] / 3);
-        if (other != kNone) sets.unite_with_lesser(i, other);
-      }
-    for (Index i = 0; i < count; ++i) {
+      : part_of_(areas.size(), kNone, &memory) {
+    for (Index i = 0; i < areas.size(); ++i) {
       const Index root = sets.find(i);
       if (root == i) {  // the first face of its part
         part_of_[i] = static_cast<Index>(rim.areas.size());
         rim.areas.push_back(Vec3d::Zero());
       }
       part_of_[i] = part_of_[root];
-      const Corners corners = posed_corners(faces[i], sides);
-      rim.areas[part_of_[i]] += 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+      rim.areas[part_of_[i]] += areas[i];
     }
   }
 
@@ -110,28 +110,39 @@ class FacesInside {
  public:
   /// @param faces  as they were imprinted.
   FacesInside(CellSides& sides, std::span<const CellFace> faces)
-      : sides_(sides), faces_(faces), number_(faces.size(), sides.memory()) {
-    for (Index i = 0; i < faces.size(); ++i) number_.insert(faces[i].face, i);
-  }
+      : sides_(sides), faces_(faces), crossed_(faces.size(), sides.memory()) {}
 
-  /// @param area_posed  of the faces, added to.
-  [[nodiscard]] ScratchVector<Index> find(double& area_posed) {
+  /// Appends the faces and their posed area vectors. @return their posed area.
+  double find(ScratchVector<Index>& inside, ScratchVector<Vec3d>& areas) {
     const SurfaceEditor& editor = sides_.editor();
     const Index first = editor.stage.first_triangle(), end = editor.surface().triangle_count();
-    ScratchVector<Index> inside(&sides_.memory());
     inside.reserve(faces_.size() + (end - first));
-    const auto add = [&](Index face, Index ancestor) {
-      if (ancestor == kNone) return;
-      const CellSides::OfFace of = sides_.at(faces_[ancestor].places);
+    areas.reserve(faces_.size() + (end - first));
+    double area = 0;
+    const auto add = [&](Index face, const Corners& corners) {
+      inside.push_back(face);
+      areas.push_back(0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]));
+      area += norm(areas.back());
+    };
+    const auto add_if_inside = [&](Index face, const CellSides::OfFace& of) {
       if (sides_.is_beyond(of)) return;
       const Corners corners = posed_corners(face, sides_);
-      if (!has_middle_inside(corners, of)) return;
-      inside.push_back(face);
-      area_posed += 0.5 * norm((corners[1] - corners[0]).cross(corners[2] - corners[0]));
+      if (has_middle_inside(corners, of)) add(face, corners);
     };
-    for (Index i = 0; i < faces_.size(); ++i) add(faces_[i].face, i);
-    for (Index t = first; t < end; ++t) add(t, number_.find(editor.stage.ancestor(t)));
-    return inside;
+    for (Index i = 0; i < faces_.size(); ++i) {
+      const Index face = faces_[i].face;
+      if (faces_[i].is_inside) {  // and therefore as it was
+        add(face, corners_of(faces_[i], sides_));
+        continue;
+      }
+      crossed_.insert(face, i);
+      add_if_inside(face, sides_.at(faces_[i].places));
+    }
+    for (Index t = first; t < end; ++t) {
+      const Index ancestor = crossed_.find(editor.stage.ancestor(t));
+      if (ancestor != kNone) add_if_inside(t, sides_.at(faces_[ancestor].places));
+    }
+    return area;
   }
 
  private:
@@ -148,7 +159,7 @@ class FacesInside {
 
   CellSides& sides_;
   std::span<const CellFace> faces_;
-  IndexMap number_;
+  IndexMap crossed_;  ///< Index in faces_ of each face that may have children.
 };
 
 }  // namespace
@@ -159,17 +170,14 @@ bool is_edge_in_cell(const CellFace& face, Index k, CellSides& sides) {
   Word beyond = 0;
   for (Index w = 0; w < sides.word_count(); ++w) beyond |= of.outside[k][w] & of.outside[l][w];
   if (beyond != 0) return false;
-  const Index* points = &sides.editor().surface().corner_point[3 * face.face];
-  const auto at = [&](Index corner) {
-    return sides.posed().position(sides.editor(), points[corner]);
-  };
+  const Vec3d &a = sides.position(face.places[k]), &b = sides.position(face.places[l]);
   double begin = 0, end = 1;
   bool is_beside = false;
   for (Index w = 0; w < sides.word_count(); ++w)
     CellSides::for_each_bit(~(of.inside[k][w] & of.inside[l][w]) & sides.all(w), w,
                             [&](Index number) {
                               const PlaneSide& side = sides.cell()[number];
-                              const double at_a = side.value(at(k)), at_b = side.value(at(l));
+                              const double at_a = side.value(a), at_b = side.value(b);
                               is_beside |= at_a < 0 && at_b < 0;
                               if (is_beside) return;
                               if (at_a < 0) begin = std::max(begin, at_a / (at_a - at_b));
@@ -178,11 +186,15 @@ bool is_edge_in_cell(const CellFace& face, Index k, CellSides& sides) {
   return !is_beside && end - begin > kInCellEdges;
 }
 
-bool is_face_in_cell(const CellFace& face, CellSides& sides) {
+bool is_face_in_cell(CellFace& face, CellSides& sides) {
   const CellSides::OfFace of = sides.at(face.places);
+  face.is_inside = sides.is_surely_inside(of);
+  if (face.is_inside) return true;
   if (sides.is_beyond(of)) return false;
+  // What is left around a corner inside always has an area.
+  if (sides.has_corner_surely_inside(of)) return true;
   bool is_in = true;
-  const Corners corners = posed_corners(face.face, sides);
+  const Corners corners = corners_of(face, sides);
   const ScratchMemory::Frame memory_of_step(sides.memory());
   Polygon polygon(sides.memory());
   for (Index w = 0; w < sides.word_count(); ++w)
@@ -216,15 +228,18 @@ GapRemoval remove_cell(CellSides& sides, std::span<const CellFace> faces, Surfac
   const CellImprint imprint = imprint_cell(sides, faces, editor);
   removal.faces_crossed = imprint.faces_crossed;
   removal.blocked = imprint.blocked;
-  const ScratchVector<Index> inside = FacesInside(sides, faces).find(removal.area_posed);
+  ScratchVector<Index> inside(&sides.memory());
+  ScratchVector<Vec3d> areas(&sides.memory());
+  removal.area_posed = FacesInside(sides, faces).find(inside, areas);
   if (inside.empty()) return removal;
   removal.faces_removed = static_cast<Index>(inside.size());
-  const RemovedFaces removed(inside, editor);
   if (rim == nullptr) {
-    removed.remove(editor, sides.posed());
+    RemovedFaces(inside, editor).remove(editor, sides.posed());
     return removal;
   }
-  const RemovedParts parts(inside, removed, sides, *rim);
+  DisjointSets sets(removal.faces_removed, sides.memory());
+  const RemovedFaces removed(inside, editor, &sets);
+  const RemovedParts parts(areas, sets, sides.memory(), *rim);
   removed.remove(editor, sides.posed());
   describe_rim(removed, parts, sides, *rim);
   return removal;

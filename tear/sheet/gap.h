@@ -16,14 +16,14 @@ template <class MayHoldAny>
 [[nodiscard]] ScratchVector<CellFace> faces_in_cell(CellSides& sides, const Frame& frame,
                                                     MayHoldAny may_hold_any);
 
-/// Whether more than a border of a face lies in the cell.
-[[nodiscard]] bool is_face_in_cell(const CellFace& face, CellSides& sides);
+/// Whether more than a border of a face lies in the cell. Tells the face whether all of it does.
+[[nodiscard]] bool is_face_in_cell(CellFace& face, CellSides& sides);
 /// Whether a part of edge k of a face lies in the cell.
 [[nodiscard]] bool is_edge_in_cell(const CellFace& face, Index k, CellSides& sides);
 
 /// The faces of which a part lies inside a cell and that are connected to the seeds inside it,
 /// ascending.
-/// @param is_wanted  is_wanted(face): whether the search may enter a face.
+/// @param is_wanted  is_wanted(cell face): whether the search may enter a face.
 template <class IsWanted>
 [[nodiscard]] ScratchVector<CellFace> faces_in_cell(CellSides& sides, std::span<const Index> seeds,
                                                     IsWanted is_wanted);
@@ -69,7 +69,7 @@ ScratchVector<CellFace> faces_in_cell(CellSides& sides, const Frame& frame,
                                       MayHoldAny may_hold_any) {
   ScratchVector<CellFace> faces(&sides.memory());
   sides.posed().for_each_face(sides.editor(), frame, may_hold_any, [&](Index face) {
-    const CellFace found{face, sides.places_of(face)};
+    CellFace found{face, sides.places_of(face)};
     if (is_face_in_cell(found, sides)) faces.push_back(found);
   });
   sort_faces(faces);
@@ -83,19 +83,22 @@ ScratchVector<CellFace> faces_in_cell(CellSides& sides, std::span<const Index> s
   ScratchVector<CellFace> faces(&sides.memory());
   IndexMap seen(4 * seeds.size(), sides.memory());
   const auto visit = [&](const CellFace& face) {
-    if (is_wanted(face.face)) faces.push_back(face);
+    if (is_wanted(face)) faces.push_back(face);
   };
   for (const Index seed : seeds) {
     if (surface.has_repeated_point(seed)) continue;
-    const CellFace face{seed, sides.places_of(seed)};
+    CellFace face{seed, sides.places_of(seed)};
     if (is_face_in_cell(face, sides) && seen.insert(seed, 0) == kNone) visit(face);
   }
   for (std::size_t i = 0; i < faces.size(); ++i) {
     const CellFace face = faces[i];
     for (Index k = 0; k < 3; ++k) {
       const Index twin = surface.twin[3 * face.face + k];
-      if (twin != kNone && is_edge_in_cell(face, k, sides) && seen.insert(twin / 3, 0) == kNone)
-        visit({twin / 3, sides.places_of(twin / 3)});
+      if (twin == kNone || seen.find(twin / 3) != kNone || !is_edge_in_cell(face, k, sides))
+        continue;
+      seen.insert(twin / 3, 0);
+      const CellSides::Places places = sides.places_of(twin / 3);
+      visit({twin / 3, places, sides.is_surely_inside(sides.at(places))});
     }
   }
   sort_faces(faces);

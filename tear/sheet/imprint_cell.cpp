@@ -140,6 +140,7 @@ class Imprint {
   [[nodiscard]] const PlaneSide& side(Index number) const { return sides_.cell()[number]; }
 
   void add_face(const CellFace& added) {
+    if (added.is_inside) return;
     const Index triangle = added.face;
     const CellSides::OfFace of = sides_.at(added.places);
     if (sides_.is_beyond(of)) return;
@@ -167,6 +168,11 @@ class Imprint {
   /// Adds the crossings of edge k of a face, unless the face across it has added them.
   /// @return the index of the edge; kNone if it has no crossings.
   Index add_edge(const Face& face, const CellSides::OfFace& of, Index k) {
+    Word crossed = 0;
+    for (Index w = 0; w < sides_.word_count(); ++w)
+      crossed |= of.outside[k][w] ^ of.outside[(k + 1) % 3][w];
+    if (crossed == 0) return kNone;
+    if (const Index known = edge_at_.find(face.edges[k]); known != kNone) return known;
     CrossedEdge edge;
     edge.half_edge = face.edges[k];
     edge.begin = static_cast<Index>(crossings_.size());
@@ -178,10 +184,7 @@ class Imprint {
     edge.end = static_cast<Index>(crossings_.size());
     if (edge.begin == edge.end) return kNone;
     const auto number = static_cast<Index>(edges_.size());
-    if (const Index known = edge_at_.insert(edge.half_edge, number); known != kNone) {
-      crossings_.resize(edge.begin);
-      return known;
-    }
+    edge_at_.insert(edge.half_edge, number);
     edge.from = editor_.surface().corner_point[edge.half_edge];
     edge.to = editor_.surface().corner_point[Surface::next(edge.half_edge)];
     edge.stored = stored_part(edge.half_edge, editor_);
@@ -191,9 +194,10 @@ class Imprint {
 
   /// The crossing of edge k of a face with the plane of a side that has its ends on both sides.
   Crossing cross(const Face& face, Index k, Index number) {
-    const Index from = face.points[face.is_reversed[k] ? (k + 1) % 3 : k],
-                to = face.points[face.is_reversed[k] ? k : (k + 1) % 3];
-    const Vec3d at_from = posed_.position(editor_, from), at_to = posed_.position(editor_, to);
+    const Index from = face.is_reversed[k] ? (k + 1) % 3 : k,
+                to = face.is_reversed[k] ? k : (k + 1) % 3;
+    const Vec3d &at_from = sides_.position(face.places[from]),
+                &at_to = sides_.position(face.places[to]);
     const PlaneSide& plane = side(number);
     const double value_from = plane.value(at_from), value_to = plane.value(at_to);
     const double fraction =

@@ -1,6 +1,7 @@
 #include "tear/sheet/remove_faces.h"
 
 #include <algorithm>
+#include <cstdint>
 
 #include "tear/internal/surface.h"
 #include "tear/surface/disconnect.h"
@@ -43,15 +44,25 @@ void separate(std::span<const Fan> fans, SurfaceEditor& editor, PosedPoints& pos
 
 }  // namespace
 
-RemovedFaces::RemovedFaces(std::span<const Index> faces, const SurfaceEditor& editor)
+RemovedFaces::RemovedFaces(std::span<const Index> faces, const SurfaceEditor& editor,
+                           DisjointSets* connected)
     : faces_(faces), number_(faces.size(), editor.scratch()), border_(&editor.scratch()) {
   for (Index i = 0; i < faces.size(); ++i) number_.insert(faces[i], i);
   border_.reserve(faces.size());
   const Surface& surface = editor.surface();
+  // Per face, a bit for each edge that was met from the face across it, which is removed too.
+  ScratchVector<std::uint8_t> met(faces.size(), 0, &editor.scratch());
   for (Index i = 0; i < faces.size(); ++i)
-    for (Index h = 3 * faces[i]; h < 3 * faces[i] + 3; ++h) {
-      const Index twin = surface.twin[h];
-      if (twin != kNone && find(twin / 3) == kNone) border_.push_back({twin, i});
+    for (Index k = 0; k < 3; ++k) {
+      const Index twin = surface.twin[3 * faces[i] + k];
+      if (twin == kNone || (met[i] >> k & 1) != 0) continue;
+      const Index other = find(twin / 3);
+      if (other == kNone) {
+        border_.push_back({twin, i});
+        continue;
+      }
+      met[other] |= static_cast<std::uint8_t>(1 << twin % 3);
+      if (connected != nullptr && other != i) connected->unite_with_lesser(i, other);
     }
 }
 

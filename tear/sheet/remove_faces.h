@@ -4,6 +4,7 @@
 #include <span>
 
 #include "tear/posed/posed_points.h"
+#include "tear/surface/disjoint_sets.h"
 #include "tear/surface/index_map.h"
 
 namespace sunder::tear {
@@ -19,7 +20,9 @@ class RemovedFaces {
   };
 
   /// @param faces  each once. They must outlive this object.
-  RemovedFaces(std::span<const Index> faces, const SurfaceEditor& editor);
+  /// @param connected  optional, as many as there are faces: those with a common edge are united.
+  RemovedFaces(std::span<const Index> faces, const SurfaceEditor& editor,
+               DisjointSets* connected = nullptr);
 
   /// Index of a face among the removed faces; kNone if it remains.
   [[nodiscard]] Index find(Index face) const { return number_.find(face); }

@@ -27,6 +27,11 @@ class ChangedCells {
   void update();
   /// To be called before the log entries from `change` on are taken back.
   void forget_from(Index change) noexcept;
+  /// Whether update() has nothing to do.
+  [[nodiscard]] bool has_counted_all() const { return seen_ == columns_.triangle_changes.size(); }
+  /// To be called if it had nothing to do before changes were dropped that count for nothing:
+  /// those that are not the first one of a triangle of the source.
+  void keep_all_counted() noexcept { seen_ = static_cast<Index>(columns_.triangle_changes.size()); }
 
   // After update():
 

@@ -1,5 +1,7 @@
 #include "tear/surface/edit_log.h"
 
+#include <utility>
+
 namespace sunder::tear {
 
 EditLog::Mark EditLog::mark(Index next_side, Index opened_changes) {
@@ -45,6 +47,22 @@ void EditLog::restore(const TriangleChange& change) {
     surface.twin[3 * change.triangle + k] = change.twins[k];
     if (change.points[k] != kNone) surface.point_corner[change.points[k]] = change.point_corners[k];
   }
+}
+
+void EditLog::drop_inner_changes(const Mark& begin) {
+  auto& changes = columns_.triangle_changes;
+  auto& newest = columns_.newest_change;
+  Index kept = begin.triangle_changes;
+  for (Index i = kept; i < changes.size(); ++i) {
+    const auto [triangle, previous] = std::pair(changes[i].triangle, changes[i].previous);
+    if (triangle >= begin.triangles) {
+      newest[triangle] = kNone;
+    } else if (previous == kNone || previous < begin.triangle_changes) {
+      if (kept != i) changes[kept] = changes[i];
+      newest[triangle] = kept++;
+    }
+  }
+  changes.erase(changes.begin() + kept, changes.end());
 }
 
 void EditLog::restore_since(const Mark& mark) {

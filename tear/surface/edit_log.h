@@ -45,6 +45,9 @@ class EditLog {
   /// The current state of a triangle.
   [[nodiscard]] TriangleChange describe(Index triangle) const;
   void restore(const TriangleChange& change);
+  /// Drops the entries of an operation that is complete, apart from the first one of each triangle
+  /// that existed before it: only marks inside the operation need the others.
+  void drop_inner_changes(const Mark& begin);
   /// Restores the triangles that changed since a mark, and removes their entries.
   void restore_since(const Mark& mark);
 

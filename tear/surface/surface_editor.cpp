@@ -57,6 +57,14 @@ void SurfaceEditor::reserve(const TornCapacity& capacity) {
   if (room.is_fixed()) changed_cells.update();
 }
 
+void SurfaceEditor::drop_inner_changes(const EditLog::Mark& begin) noexcept {
+  const bool has_counted = changed_cells.has_counted_all();
+  if (!has_counted) changed_cells.forget_from(begin.triangle_changes);
+  log.drop_inner_changes(begin);
+  if (has_counted) changed_cells.keep_all_counted();
+  (void)mark();
+}
+
 void SurfaceEditor::roll_back(const EditLog::Mark& to) noexcept {
   changed_cells.forget_from(to.triangle_changes);
   log.restore_since(to);

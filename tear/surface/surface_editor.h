@@ -60,6 +60,9 @@ class SurfaceEditor {
   void reserve(const TornCapacity& capacity);
   /// Sets a mark to which the surface can be rolled back. O(1).
   [[nodiscard]] EditLog::Mark mark() { return log.mark(sides.next(), opened_edges.change_count()); }
+  /// To be called when the operation that began at a mark is complete: marks set since are void.
+  /// Does not allocate. O(changed triangles).
+  void drop_inner_changes(const EditLog::Mark& begin) noexcept;
   /// Restores the state at a mark. Does not allocate.
   void roll_back(const EditLog::Mark& to) noexcept;
   struct Redo;

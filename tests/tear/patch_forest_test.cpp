@@ -243,6 +243,24 @@ std::vector<std::string> broken_bounds(Torn& torn, Random& random) {
   return broken;
 }
 
+/// The half-spaces of a cell whose bits contradict the corners of a face.
+int count_wrong_bits(const CellFace& face, const CellSides& sides) {
+  const CellSides::OfFace of = sides.at(face.places);
+  int wrong = 0;
+  for (Index side = 0; side < sides.cell().size(); ++side)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto is_set = [&](const CellSides::Word* bits) {
+        return (bits[side / CellSides::kBits] >> side % CellSides::kBits & 1) != 0;
+      };
+      const PlaneSide& plane = sides.cell()[side];
+      const Vec3d& corner = sides.position(face.places[k]);
+      if (is_set(of.outside[k]) == plane.contains(corner)) ++wrong;
+      if (is_set(of.inside[k]) && !(plane.value(corner) > 0)) ++wrong;
+      if (face.is_inside && !is_set(of.inside[k])) ++wrong;
+    }
+  return wrong;
+}
+
 TEST(PatchForest, hilbert_curve_goes_from_neighbour_to_neighbour) {
   std::map<std::uint64_t, std::array<std::uint32_t, 3>> cells;
   for (std::uint32_t x = 0; x < 16; ++x)
@@ -374,7 +392,10 @@ TEST(PatchForest, finds_the_same_as_testing_every_face) {
           }
         CellSides sides(cell, torn.editor, torn.posed);
         std::vector<Index> in_cell;
-        for (const CellFace& found_face : faces_in_cell(sides)) in_cell.push_back(found_face.face);
+        for (const CellFace& found_face : faces_in_cell(sides)) {
+          in_cell.push_back(found_face.face);
+          EXPECT_EQ(count_wrong_bits(found_face, sides), 0);
+        }
         EXPECT_EQ(in_cell, test::scan_for_faces_in(cell, torn.editor, torn.posed));
         faces_in_cells += in_cell.empty() ? 0 : 1;
         if (cell.empty()) continue;
