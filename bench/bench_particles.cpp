@@ -1,6 +1,7 @@
 // Measures particles on one thread: dividing a surface into particles, following a tear, and a step
 // of their motion.
 
+#include <algorithm>
 #include <cstdio>
 #include <cstring>
 
@@ -9,12 +10,13 @@
 #include "bench/particles_decompose.h"
 #include "bench/particles_repair.h"
 #include "bench/particles_steps.h"
+#include "bench/particles_surface.h"
 
 namespace sunder::bench {
 namespace {
 
 constexpr const char* kHelp =
-    "bench_particles [--summary]\n"
+    "bench_particles [--summary | --surfaces]\n"
     "\n"
     "The bunny with 1, 2, 3, 7 and 16 divisions per edge, on 64 bones. Medians, candidates in\n"
     "turns, one thread.\n"
@@ -32,7 +34,8 @@ constexpr const char* kHelp =
     "Steps: a SoftBody at 60 steps per second, every bone moving. The time that displacing all\n"
     "vertices adds to skinning has a column of its own.\n"
     "\n"
-    "Prints tables. --summary prints one JSON object instead.\n"
+    "Prints tables. --surfaces prints the table of displaced surfaces alone, --summary prints one "
+    "JSON object instead.\n"
     "  bunny_decompose_ms      ParticleSet::create() of 3,485 points, range a tenth of the "
     "diagonal\n"
     "  bunny_particles         number of its particles\n"
@@ -44,6 +47,10 @@ constexpr const char* kHelp =
     "                          same tear again and again, so without first allocations\n"
     "  repair_growth_3k_900k   that time / the same at 3.5 thousand points\n"
     "  asleep_us               a step of those 200 particles when all sleep, in an unchanged pose\n"
+    "  normal_p99_degrees      99th percentile of the angle between displaced normals and faces, "
+    "the\n"
+    "                          worst of the surfaces whose lips gape by a tenth of the range\n"
+    "  tangent_dot_max         the largest |n . t| of displaced normals and tangents\n"
     "  vs_nanoflann            bunny_decompose_ms / nanoflann's time for its tree and clusters;\n"
     "                          null if it is not built\n";
 
@@ -122,6 +129,19 @@ void print_step(const StepFigures& figures) {
   std::fflush(stdout);
 }
 
+void print_surfaces() {
+  std::printf(
+      "Displaced surfaces: lips that gape, their walls, and the skin around them. Angles in "
+      "degrees beyond those at rest.\n"
+      "surface   gap / range   normals p99    worst   |n . t|   jump between faces\n");
+  for (const SurfaceFigures& figures : measure_surfaces())
+    std::printf("%-8s %12.2f %13.2f %8.2f %9.1e %20.2f\n", figures.name.c_str(), figures.gap,
+                figures.surface.normal_p99, figures.surface.normal_worst,
+                figures.surface.tangent_dot, figures.surface.jump);
+  std::printf("\n");
+  std::fflush(stdout);
+}
+
 constexpr std::uint32_t kStepped = 200;
 constexpr int kSteppedDivisions = 2;
 
@@ -143,6 +163,7 @@ void print_tables() {
   for (const std::uint32_t particles : {100u, kStepped, 1000u})
     print_step(measure_steps(kSteppedDivisions, particles, 300));
   print_step(measure_steps(7, 10000, 60));
+  print_surfaces();
 }
 
 void print_summary() {
@@ -162,6 +183,13 @@ void print_summary() {
   object.add("repair_ms_900k", large_follow * kMilliseconds);
   object.add("repair_growth_3k_900k", large_follow / small_follow);
   object.add("asleep_us", steps.asleep * kMicroseconds);
+  double normals = 0, tangents = 0;
+  for (const SurfaceFigures& of : measure_surfaces()) {
+    tangents = std::max(tangents, of.surface.tangent_dot);
+    if (of.wanted_gap < 0.2) normals = std::max(normals, of.surface.normal_p99);
+  }
+  object.add("normal_p99_degrees", normals);
+  object.add("tangent_dot_max", tangents);
   object.add("vs_nanoflann", bunny.vs_nanoflann());
   object.end();
 }
@@ -176,6 +204,10 @@ int main(int argc, char** argv) {
   }
   if (argc == 2 && std::strcmp(argv[1], "--summary") == 0) {
     sunder::bench::print_summary();
+    return 0;
+  }
+  if (argc == 2 && std::strcmp(argv[1], "--surfaces") == 0) {
+    sunder::bench::print_surfaces();
     return 0;
   }
   const bool asked = argc == 2 && std::strcmp(argv[1], "--help") == 0;

@@ -83,44 +83,64 @@ void write_turned(const float* turned, bool unit_length, float* at) {
   for (int i = 0; i < 3; ++i) at[i] = static_cast<float>(scale * turned[i]);
 }
 
+/// The linear map of the displaced surface around a vertex, column by column: I + sum_k U_k g_k^T,
+/// where g_k is the stored gradient transformed by the mean of the particles' matrices.
+void map_around(const ParticleInfluences& by, const ParticleGradients& stored, const Vec4f* of,
+                const Mat3f* matrices, float* map) {
+  float mean[9];
+  blend_matrices(by, matrices, mean);
+  for (int i = 0; i < 9; ++i) map[i] = i % 4 == 0 ? 1.0f : 0.0f;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const float *s = stored.of_weights[k].data(), *u = of[by.particles[k]].data();
+    for (int j = 0; j < 3; ++j) {
+      const float g = mean[j] * s[0] + mean[3 + j] * s[1] + mean[6 + j] * s[2];
+      for (int i = 0; i < 3; ++i) map[3 * j + i] += g * u[i];
+    }
+  }
+}
+
+void cross(const float* a, const float* b, float* product) {
+  product[0] = a[1] * b[2] - a[2] * b[1];
+  product[1] = a[2] * b[0] - a[0] * b[2];
+  product[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+/// The normal of a mapped surface, by the cofactors of the map: exact, however far the surface is
+/// displaced.
+void turn_normal(const float* map, bool unit_length, float* n) {
+  float x[3], y[3], z[3], turned[3];
+  cross(map + 3, map + 6, x);
+  cross(map + 6, map, y);
+  cross(map, map + 3, z);
+  for (int i = 0; i < 3; ++i) turned[i] = n[0] * x[i] + n[1] * y[i] + n[2] * z[i];
+  write_turned(turned, unit_length, n);
+}
+
+/// @param n  the turned normal, to which the tangent becomes orthogonal; or null.
+void turn_tangent(const float* map, const float* n, bool unit_length, float* t) {
+  float turned[3];
+  for (int i = 0; i < 3; ++i) turned[i] = map[i] * t[0] + map[3 + i] * t[1] + map[6 + i] * t[2];
+  const float square = n == nullptr ? 0.0f : dot(n, n);
+  if (square > 0.0f) {
+    const float part = dot(n, turned) / square;
+    for (int i = 0; i < 3; ++i) turned[i] -= part * n[i];
+  }
+  write_turned(turned, unit_length, t);
+}
+
 void turn_directions(const VertexDisplacements& displacements, const VertexTarget& target,
                      std::uint32_t first, std::uint32_t end) {
   const Rows rows(displacements);
-  const Vec4f* const of = displacements.displacements.data();
-  const ParticleGradients* const gradients = displacements.gradients.data();
-  const Mat3f* const matrices = displacements.model_from_gradient.data();
   const StridedFloats<float> normals = target.normals, tangents = target.tangents;
-  const bool unit_length = target.unit_length;
   for (std::uint32_t v = first; v < end; ++v) {
     const std::uint32_t row = rows.of(v);
     if (row == kNone) continue;
-    const ParticleInfluences& by = rows.influences(row);
-    const std::array<Vec3f, 4>& stored = gradients[row].of_weights;
-    float mean[9];
-    blend_matrices(by, matrices, mean);
-    if (normals.data != nullptr) {
-      float* n = floats_of(normals, v);
-      float slope[3] = {};  // sum_k (n . U_k) g_k, where the gradients were taken
-      for (std::size_t k = 0; k < 4; ++k) {
-        const float rise = dot(n, of[by.particles[k]].data());
-        for (int i = 0; i < 3; ++i) slope[i] += rise * stored[k][i];
-      }
-      float turned[3];
-      for (int i = 0; i < 3; ++i)
-        turned[i] = n[i] - (mean[i] * slope[0] + mean[3 + i] * slope[1] + mean[6 + i] * slope[2]);
-      write_turned(turned, unit_length, n);
-    }
-    if (tangents.data != nullptr) {
-      float* t = floats_of(tangents, v);
-      // g_k . t = stored . (transposed mean t)
-      const float back[3] = {dot(mean, t), dot(mean + 3, t), dot(mean + 6, t)};
-      float turned[3] = {t[0], t[1], t[2]};
-      for (std::size_t k = 0; k < 4; ++k) {
-        const float growth = dot(stored[k].data(), back);
-        for (int i = 0; i < 3; ++i) turned[i] += growth * of[by.particles[k]][i];
-      }
-      write_turned(turned, unit_length, t);
-    }
+    float map[9];
+    map_around(rows.influences(row), displacements.gradients[row],
+               displacements.displacements.data(), displacements.model_from_gradient.data(), map);
+    float* const n = normals.data == nullptr ? nullptr : floats_of(normals, v);
+    if (n != nullptr) turn_normal(map, target.unit_length, n);
+    if (tangents.data != nullptr) turn_tangent(map, n, target.unit_length, floats_of(tangents, v));
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include "core/internal/ordered.h"
 #include "core/internal/prefetch.h"
+#include "particles/internal/tolerances.h"
 #include "tear/internal/surface.h"
 
 namespace sunder::particles {
@@ -16,16 +17,48 @@ float weight_of(const ParticleInfluences& influences, Index particle) {
   return 0.0f;
 }
 
-/// Mean over the faces around a point, weighted by area, of the gradients of functions that are
-/// linear in each face.
+/// The gradients of some faces, weighted by area. On a smooth surface their mean is that of the
+/// point. At a crease, as between a lip and its wall, each face knows only the part in its own
+/// plane; there the gradient is the one whose parts in these planes agree best with the faces'.
+class FaceGradients {
+ public:
+  FaceGradients() { sums_.fill(Vec3d::Zero()); }
+
+  void add_face(const Vec3d& normal, double area) {
+    area_ += area;
+    normals_ += area * normal;
+    for (Eigen::Index k = 0; k < 3; ++k) planes_.col(k) -= area * normal[k] * normal;
+  }
+  void add(std::size_t i, const Vec3d& gradient_times_area) { sums_[i] += gradient_times_area; }
+
+  [[nodiscard]] ParticleGradients means() const {
+    ParticleGradients gradients;
+    if (!(area_ > 0)) return gradients;
+    const double length = norm(normals_);
+    const bool is_creased = length < kCreaseCosine * area_ && length > 0;
+    Mat3d parts = planes_ + area_ * Mat3d::Identity();
+    for (Eigen::Index k = 0; k < 3; ++k)
+      parts.col(k) += kAcrossCrease * area_ * (normals_[k] / (length * length)) * normals_;
+    for (std::size_t i = 0; i < 4; ++i) {
+      Vec3d of = sums_[i] / area_;
+      if (is_creased && determinant(parts) > kFlatDeterminant * area_ * area_ * area_)
+        of = multiply(inverse(parts), sums_[i]);
+      gradients.of_weights[i] = of.cast<float>();
+    }
+    return gradients;
+  }
+
+ private:
+  double area_ = 0;
+  Vec3d normals_ = Vec3d::Zero();
+  Mat3d planes_ = Mat3d::Zero();  ///< The sum of area (projection to the plane - identity).
+  std::array<Vec3d, 4> sums_;
+};
+
 ParticleGradients gradients_at(const Surface& surface, const Structure& structure, Index point) {
-  ParticleGradients gradients;
-  gradients.of_weights.fill(Vec3f::Zero());
-  if (surface.point_corner[point] == kNone) return gradients;
+  if (surface.point_corner[point] == kNone) return {};
   const ParticleInfluences& own = structure.points.influences[point];
-  double area = 0;
-  std::array<Vec3d, 4> sums;
-  sums.fill(Vec3d::Zero());
+  FaceGradients faces;
   surface.for_each_in_fan(surface.point_corner[point], [&](Index corner) {
     const Index b = surface.corner_point[Surface::next(corner)],
                 c = surface.corner_point[Surface::previous(corner)];
@@ -36,18 +69,16 @@ ParticleGradients gradients_at(const Surface& surface, const Structure& structur
     const double length = norm(twice);
     if (!(length > 0)) return;
     const Vec3d normal = twice / length;
-    area += length;
+    faces.add_face(normal, length);
     for (std::size_t i = 0; i < 4 && own.weights[i] > 0; ++i) {
       const double rise_b =
           weight_of(structure.points.influences[b], own.particles[i]) - own.weights[i];
       const double rise_c =
           weight_of(structure.points.influences[c], own.particles[i]) - own.weights[i];
-      sums[i] += normal.cross(rise_c * to_b - rise_b * to_c);  // times twice the area
+      faces.add(i, normal.cross(rise_c * to_b - rise_b * to_c));  // times twice the area
     }
   });
-  if (area > 0)
-    for (std::size_t i = 0; i < 4; ++i) gradients.of_weights[i] = (sums[i] / area).cast<float>();
-  return gradients;
+  return faces.means();
 }
 
 }  // namespace

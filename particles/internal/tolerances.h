@@ -89,6 +89,13 @@ static_assert(kCouplingResidual * kCouplingResidual < kBulletSquaredResidual);
 /// inverse.
 inline constexpr double kFlatDeterminant = 1e-9;
 
+// ---- Gradients of weights.
+
+/// Faces around a point whose mean normal is shorter than this make a crease.
+inline constexpr double kCreaseCosine = 0.9;
+/// Weight of a gradient across the mean of a crease's faces, which hardly any of them knows.
+inline constexpr double kAcrossCrease = 0.05;
+
 // ---- Steps.
 
 /// The square of a shorter step is too small to divide by, and forces have no visible effect in it.

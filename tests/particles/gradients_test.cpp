@@ -24,13 +24,15 @@ float weight_of(const ParticleSet& set, std::uint32_t point, std::uint32_t parti
 }
 
 /// The gradient of a weight by its definition: per face the gradient with the differences along its
-/// two edges; the mean by area.
+/// two edges; the mean by area. At a crease, the vector whose parts in the faces' planes have the
+/// least squared distance from these gradients.
 Vec3d gradient_by_faces(const TornModel& model, const ParticleSet& set, std::uint32_t point,
                         std::size_t i) {
   const tear::Surface& surface = model.surface();
   const std::uint32_t particle = set.influences()[point].particles[i];
   const double own = set.influences()[point].weights[i];
-  Vec3d sum = Vec3d::Zero();
+  Vec3d sum = Vec3d::Zero(), normals = Vec3d::Zero();
+  Mat3d planes = Mat3d::Zero();
   double areas = 0;
   surface.for_each_in_fan(surface.point_corner[point], [&](std::uint32_t corner) {
     const std::uint32_t b = surface.corner_point[tear::Surface::next(corner)],
@@ -46,7 +48,14 @@ Vec3d gradient_by_faces(const TornModel& model, const ParticleSet& set, std::uin
         Eigen::Vector2d(weight_of(set, b, particle) - own, weight_of(set, c, particle) - own);
     sum += area * (parts.x() * to_b + parts.y() * to_c);
     areas += area;
+    const Vec3d normal = to_b.cross(to_c) / area;
+    normals += area * normal;
+    planes += area * (Mat3d::Identity() - normal * normal.transpose());
   });
+  if (areas > 0 && normals.norm() < 0.9 * areas) {
+    const Vec3d across = normals.normalized();
+    return (planes + 0.05 * areas * across * across.transpose()).inverse() * sum;
+  }
   return areas > 0 ? Vec3d(sum / areas) : Vec3d(Vec3d::Zero());
 }
 

@@ -108,10 +108,10 @@ struct ParticleGradients {
 /// bones put it, to p + sum_k w_k U_k. *Posed space* is model space, or the frame given to
 /// BonePalette::set().
 ///
-/// With gradients, normals and tangents follow to first order in U: n - sum_k (n . U_k) g_k and t +
-/// sum_k (g_k . t) U_k, at their previous length, or unit length if the buffer requests it; the w
-/// of tangents is kept. g_k is the stored gradient times the weighted mean of the particles'
-/// `model_from_gradient`.
+/// With gradients, tangents are mapped by F = I + sum_k U_k g_k^T and normals by its cofactors: the
+/// normals of the displaced surface. Tangents are made orthogonal to normals, if both are wanted.
+/// Both keep their length, or get unit length if the buffer requests it; the w of tangents is kept.
+/// g_k is the stored gradient times the weighted mean of the particles' `model_from_gradient`.
 struct VertexDisplacements {
   /// One per vertex: its row. kNone, or any index that is not a row: not displaced.
   std::span<const std::uint32_t> vertex_rows;
