@@ -116,6 +116,7 @@ Status play_one(const Operation& operation, const std::string& place, bool is_me
     if (const Status status = measure_weight_error(operation, run.model, played.outcome); !status)
       return status;
   add_to_totals(played.outcome, run);
+  if (!played.outcome.has_missed) run.played.push_back(operation);
   const bool is_reported = run.request.report.has_value();
   Json report = is_reported ? to_json(played.outcome, run.model.character()) : Json::object();
   Status status;
