@@ -1,0 +1,118 @@
+#include "tools/render/trace.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <thread>
+
+#include "tools/render/lighting.h"
+#include "tools/render/shading.h"
+
+namespace sunder::tools {
+namespace {
+
+const Vec3f kBackdrop(0.80f, 0.82f, 0.85f);  ///< Linear.
+constexpr int kMostLayers = 8;               ///< Of transparent surfaces.
+
+/// Rotated by about 27 degrees, so that steep and flat edges are smooth alike.
+constexpr std::array<std::array<double, 2>, Lighting::kSamples> kPlaces = {
+    {{0.375, 0.125}, {0.875, 0.375}, {0.125, 0.625}, {0.625, 0.875}}};
+
+std::uint8_t as_byte(float linear) {
+  // Above 0.7, light is compressed instead of cut.
+  const float bright = 0.7f + 0.3f * (1 - std::exp(-(linear - 0.7f) / 0.3f));
+  const float tone = std::clamp(linear < 0.7f ? linear : bright, 0.0f, 1.0f);
+  const float coded =
+      tone <= 0.0031308f ? 12.92f * tone : 1.055f * std::pow(tone, 1 / 2.4f) - 0.055f;
+  return static_cast<std::uint8_t>(std::lround(255 * coded));
+}
+
+class Tracer {
+ public:
+  Tracer(const RenderScene& scene, const Camera& camera, const PictureSize& size)
+      : scene_(scene), lighting_(camera), shading_(scene, lighting_), size_(size) {
+    eye_ = camera.eye.cast<float>();
+    const Vec3d back = (camera.eye - camera.focal_point).normalized();
+    const Vec3d right = camera.up.cross(back).normalized();
+    const double slope = std::tan(camera.view_angle_degrees / 2 * std::numbers::pi / 180);
+    right_ = (slope * size.width / size.height * right).cast<float>();
+    up_ = (slope * back.cross(right)).cast<float>();
+    forward_ = -back.cast<float>();
+    Vec3f least = Vec3f::Constant(std::numeric_limits<float>::max()), greatest = -least;
+    for (const RenderTriangle& triangle : scene.triangles)
+      for (const Vec3f& corner : triangle.corners) {
+        least = least.cwiseMin(corner);
+        greatest = greatest.cwiseMax(corner);
+      }
+    middle_ = (least + greatest) / 2;
+  }
+
+  [[nodiscard]] Picture::Color pixel(int x, int y) const {
+    Vec3f sum = Vec3f::Zero();
+    for (std::size_t sample = 0; sample < kPlaces.size(); ++sample) {
+      const double right = 2 * (x + kPlaces[sample][0]) / size_.width - 1,
+                   up = 1 - 2 * (y + kPlaces[sample][1]) / size_.height;
+      sum += radiance(forward_ + static_cast<float>(right) * right_ + static_cast<float>(up) * up_,
+                      static_cast<float>(up), sample);
+    }
+    sum /= static_cast<float>(kPlaces.size());
+    return {as_byte(sum.x()), as_byte(sum.y()), as_byte(sum.z())};
+  }
+
+ private:
+  /// Light from one direction; `height` is that in the picture, -1 to 1.
+  [[nodiscard]] Vec3f radiance(const Vec3f& along, float height, std::size_t sample) const {
+    Vec3f sum = Vec3f::Zero();
+    float left = 1, from = 0;
+    for (int layer = 0; layer < kMostLayers && left > 0.01f; ++layer) {
+      const Shading::Hit hit = shading_.find(eye_ + from * along, along);
+      if (hit.triangle == kNone) break;
+      const Vec4f shaded = shading_.shade(hit, along, sample);
+      sum += left * shaded.w() * shaded.head<3>();
+      left *= 1 - shaded.w();
+      from += hit.distance * 1.00001f;
+    }
+    return left > 0.01f ? Vec3f(sum + left * background(along, height, sample)) : sum;
+  }
+
+  [[nodiscard]] Vec3f background(const Vec3f& along, float height, std::size_t sample) const {
+    const Vec3f backdrop = (1 + 0.08f * height) * kBackdrop;
+    if (scene_.floor_radius <= 0 || along.y() >= 0 || eye_.y() <= scene_.floor) return backdrop;
+    const Vec3f place = eye_ + (scene_.floor - eye_.y()) / along.y() * along;
+    const float beside = Vec2f(place.x() - middle_.x(), place.z() - middle_.z()).norm();
+    const float fade = 1 - beside / scene_.floor_radius;
+    if (fade <= 0) return backdrop;
+    const float lit = shading_.light_on_floor(place, sample);
+    return (1 - std::min(1.0f, 2 * fade) * 0.62f * (1 - lit)) * backdrop;
+  }
+
+  const RenderScene& scene_;
+  Lighting lighting_;
+  Shading shading_;
+  PictureSize size_;
+  Vec3f eye_, right_, up_, forward_, middle_;
+};
+
+}  // namespace
+
+Picture trace(const RenderScene& scene, const Camera& camera, const PictureSize& size) {
+  const Tracer tracer(scene, camera, size);
+  Picture picture{size.width, size.height, {}};
+  picture.colors.resize(static_cast<std::size_t>(size.width) *
+                        static_cast<std::size_t>(size.height));
+  std::atomic<int> next = 0;
+  const auto draw_rows = [&] {
+    for (int y = next++; y < size.height; y = next++)
+      for (int x = 0; x < size.width; ++x)
+        picture.colors[static_cast<std::size_t>(y * size.width + x)] = tracer.pixel(x, y);
+  };
+  std::vector<std::thread> others;
+  for (unsigned i = 1; i < std::thread::hardware_concurrency(); ++i) others.emplace_back(draw_rows);
+  draw_rows();
+  for (std::thread& thread : others) thread.join();
+  return picture;
+}
+
+}  // namespace sunder::tools
