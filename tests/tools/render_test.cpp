@@ -95,8 +95,10 @@ TEST(Image, damaged_files_are_refused_or_read_in_part) {
             static_cast<std::byte>(random.uniform(0, 255));
       if (i % 3 == 0) bytes.resize(bytes.size() / 2);
       const auto image = decode_image(bytes);
-      if (image)
-        EXPECT_EQ(image->rgba.size(), std::size_t{4} * image->width * image->height);
+      if (image) {
+        EXPECT_EQ(image->rgba.size(), std::size_t{4} * static_cast<std::size_t>(image->width) *
+                                          static_cast<std::size_t>(image->height));
+      }
     }
   EXPECT_EQ(decode_image({}).error().code(), StatusCode::unsupported_format);
 }

@@ -69,7 +69,7 @@ void add_report_options(CLI::App& verb, TearRequest& request) {
       ->needs(report);
   CLI::Option* const quiet = verb.add_flag_callback(
       "-q,--quiet", [&request] { request.verbosity = Verbosity::quiet; },
-      "Print errors only: no operations, warnings and summary");
+      "Print errors and misses only: no other operations, warnings and summary");
   verb.add_flag_callback(
           "-v,--verbose", [&request] { request.verbosity = Verbosity::verbose; },
           "Print details of operations, and durations")

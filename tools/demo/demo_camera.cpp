@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kMostPlaces = 20000;
 constexpr double kGoodEnough = 0.55;   ///< Of the score of a wound that faces the eye.
-constexpr double kSurroundings = 0.9;  ///< Around a wound in the closest view, in its lengths.
+constexpr double kSurroundings = 0.6;  ///< Around a wound in the closest view, in its lengths.
 
 /// How well a wound is seen from a side: the mean, over its places, of the cosine to the line of
 /// sight, or 0 where something hides it.
@@ -107,9 +107,7 @@ Camera aim(const ViewFrame& frame, const std::vector<Vec3d>& places,
     for (const Vec3d& place : places)
       if ((place - middle).norm() < radius) shown.push_back(place);
     // A place at each side, where the model ends before: the wound stays in the middle.
-    for (const double side : {-0.7, 0.7})
-      shown.push_back(middle + side * radius * frame.right);
-    for (const double side : {-0.6, 0.6}) shown.push_back(middle + side * radius * frame.up);
+    for (const double side : {-0.7, 0.7}) shown.push_back(middle + side * radius * frame.right);
   }
   if (shown.empty()) shown = places;
   return Viewport(frame, PictureSize(), shown).camera();

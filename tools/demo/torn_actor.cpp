@@ -26,7 +26,7 @@ Result<TornActor> TornActor::create(std::shared_ptr<const Character> source,
 Status TornActor::tear_to(std::size_t blade) {
   CharacterInstance& instance = model_.instance;
   const auto keep = [this](const ChangeRecord& change) {
-    wounds_.push_back(wound_of(std::span(&change, 1)));
+    wound_.lips.insert(wound_.lips.end(), change.lips.begin(), change.lips.end());
   };
   ChangeRecord change;
   if (blade == 0) return instance.begin_stroke(tear_pose_, tear_.stroke[0], tear_.options);
@@ -64,8 +64,10 @@ Result<TornActor::Posture> TornActor::posture() {
   Posture posture{std::move(*closed), {}, {}};
   posture.open = posture.closed;
   displace(model_.instance, posture.open);
-  if (!wounds_.empty())
-    posture.wound.emplace(*model_.instance.model(), wounds_, posture.closed);
+  if (wound_.lips.empty()) return posture;
+  const std::span<const Wound> wounds(&wound_, 1);
+  taper_wounds(model_.instance, wounds, posture.closed, posture.open);
+  posture.wound.emplace(*model_.instance.model(), wounds, posture.closed);
   return posture;
 }
 

@@ -44,7 +44,7 @@ class TornActor {
   GapingModel model_;
   TearOperation tear_;
   ModelPose tear_pose_, pose_;
-  std::vector<Wound> wounds_;
+  Wound wound_;
 };
 
 }  // namespace sunder::tools

@@ -100,6 +100,7 @@ Result<Opening> measure_opening(std::shared_ptr<const Character> character,
   }
   if (const Status status = instance.draw(); !status) return status;
   opening.open = drawn(instance);
+  taper_wounds(instance, model->wounds, opening.closed, opening.open);
   opening.course = few_moments(shares(moments));
   for (const Wound& wound : model->wounds)
     opening.widest_gap = std::max(opening.widest_gap, widest_gap(instance, wound));

@@ -175,6 +175,9 @@ Status draw_torn(const LoadedCharacter& loaded, std::span<const Operation> histo
   std::vector<DeformedMesh> open = *closed;
   if (const Status status = open_lips(instance, *pose); !status) return status;
   displace(instance, open);
+  std::vector<Wound> wounds = model->wounds;
+  std::erase_if(wounds, [](const Wound& wound) { return !(wound.length > 0); });
+  taper_wounds(instance, wounds, *closed, open);
   const auto* const cut = std::get_if<CutOperation>(&newest);
   if (cut != nullptr) move_apart(torn.character(), cut->cut, pieces, kApart * diagonal, open);
 
@@ -185,8 +188,6 @@ Status draw_torn(const LoadedCharacter& loaded, std::span<const Operation> histo
   if (robot != nullptr) frame = view_beside(frame);
   const Result<ModelLooks> looks = ModelLooks::create(loaded.source.get());
   if (!looks) return looks.error();
-  std::vector<Wound> wounds = model->wounds;
-  std::erase_if(wounds, [](const Wound& wound) { return !(wound.length > 0); });
   RenderScene scene =
       make_torn_scene({torn, *closed, open, wounds}, *looks, kThickness * diagonal);
   add_robot(*beside, *looks, scene);

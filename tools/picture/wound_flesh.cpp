@@ -13,9 +13,10 @@ namespace sunder::tools {
 namespace {
 
 constexpr std::size_t kAcross = 14;  ///< Faces from lip to lip.
+using Row = std::array<Vec3f, kAcross + 1>;
 constexpr float kDepthOfGap = 0.8f, kDepthOfThickness = 0.4f;
 constexpr float kRednessOfLength = 0.055f;
-constexpr int kSmoothing = 6;
+constexpr int kSmoothing = 6, kDepthPasses = 60;
 
 Vec3f place(const std::vector<DeformedMesh>& posed, std::uint32_t mesh, std::uint32_t vertex) {
   return posed[mesh].positions[vertex];
@@ -124,41 +125,33 @@ void WoundFlesh::measure(const TornModel& torn, const std::vector<DeformedMesh>&
 
 void WoundFlesh::add(const std::vector<DeformedMesh>& closed, const std::vector<DeformedMesh>& open,
                      std::uint32_t flesh, RenderScene& scene) const {
-  constexpr std::size_t kPlaces = kAcross + 1;
-  std::vector<std::array<Vec3f, kPlaces>> places(sections_.size()), normals(sections_.size());
   float widest = 0;
-  for (std::size_t s = 0; s < sections_.size(); ++s) {
-    const Section& section = sections_[s];
-    const Vec3f left = place(open, section.left.mesh, section.left.vertex),
-                right = place(open, section.right.mesh, section.right.vertex);
-    const Vec3f outwards = (closed[section.left.mesh].normals[section.left.vertex] +
-                            closed[section.right.mesh].normals[section.right.vertex])
-                               .normalized();
-    const float gap = (right - left).norm();
-    widest = std::max(widest, gap);
-    const float depth = std::min(kDepthOfGap * gap, kDepthOfThickness * section.thickness);
-    for (std::size_t i = 0; i < kPlaces; ++i) {
+  const std::vector<Bed> beds = make_beds(closed, open, widest);
+  std::vector<Row> places(sections_.size()), normals(sections_.size());
+  for (std::size_t s = 0; s < sections_.size(); ++s)
+    for (std::size_t i = 0; i < places[s].size(); ++i) {
       const float angle =
           std::numbers::pi_v<float> * static_cast<float>(i) / static_cast<float>(kAcross);
-      const float across = (1 - std::cos(angle)) / 2;
-      places[s][i] = left + across * (right - left) - depth * std::sin(angle) * outwards;
+      const Bed& bed = beds[s];
+      places[s][i] = bed.left + (1 - std::cos(angle)) / 2 * (bed.right - bed.left) -
+                     bed.depth * std::sin(angle) * bed.outwards;
       normals[s][i].setZero();
     }
-  }
+  using Corner = std::array<std::size_t, 2>;
   const auto for_each_face = [&](const auto& visit) {
     for (const auto& [a, b] : spans_)
       for (std::size_t i = 0; i < kAcross; ++i) {
-        visit(std::array<std::array<std::size_t, 2>, 3>{{{a, i}, {b, i}, {a, i + 1}}});
-        visit(std::array<std::array<std::size_t, 2>, 3>{{{b, i}, {b, i + 1}, {a, i + 1}}});
+        visit(std::array<Corner, 3>{{{a, i}, {b, i}, {a, i + 1}}});
+        visit(std::array<Corner, 3>{{{b, i}, {b, i + 1}, {a, i + 1}}});
       }
   };
-  const auto at = [](auto& grid, const std::array<std::size_t, 2>& corner) -> auto& {
-    return grid[corner[0]][corner[1]];
+  const auto at = [](auto& rows, const Corner& corner) -> auto& {
+    return rows[corner[0]][corner[1]];
   };
   for_each_face([&](const auto& face) {
     const Vec3f a = at(places, face[0]);
     const Vec3f normal = (at(places, face[1]) - a).cross(at(places, face[2]) - a);
-    for (const auto& corner : face) at(normals, corner) += normal;
+    for (const Corner& corner : face) at(normals, corner) += normal;
   });
   const float unit = widest > 0 ? 1 / widest : 0.0f;
   for_each_face([&](const auto& face) {
@@ -174,11 +167,55 @@ void WoundFlesh::add(const std::vector<DeformedMesh>& closed, const std::vector<
     }
     scene.triangles.push_back(drawn);
   });
-  for (const auto& [a, b] : spans_)
-    for (const std::size_t side : {std::size_t{0}, kAcross})
-      scene.lips.push_back({places[a][side], places[b][side]});
+  for (const auto& [a, b] : spans_) {
+    scene.lips.push_back({beds[a].left, beds[b].left});
+    scene.lips.push_back({beds[a].right, beds[b].right});
+  }
   // Fresh lips are pale: the skin reddens as they open.
   scene.redness = std::min(kRednessOfLength * length_, 0.5f * widest);
+}
+
+std::vector<WoundFlesh::Bed> WoundFlesh::make_beds(const std::vector<DeformedMesh>& closed,
+                                                   const std::vector<DeformedMesh>& open,
+                                                   float& widest) const {
+  std::vector<Bed> beds;
+  std::vector<float> limits;
+  for (const Section& section : sections_) {
+    Bed bed;
+    bed.left = place(open, section.left.mesh, section.left.vertex);
+    bed.right = place(open, section.right.mesh, section.right.vertex);
+    bed.outwards = (closed[section.left.mesh].normals[section.left.vertex] +
+                    closed[section.right.mesh].normals[section.right.vertex])
+                       .normalized();
+    const float gap = (bed.right - bed.left).norm();
+    widest = std::max(widest, gap);
+    bed.depth = std::min(kDepthOfGap * gap, kDepthOfThickness * section.thickness);
+    limits.push_back(bed.depth);
+    beds.push_back(bed);
+  }
+  // Gaps are uneven; the ground between the lips is not. It ends where the lips meet.
+  std::vector<float> sums(beds.size());
+  std::vector<int> counts(beds.size());
+  std::vector<Vec3f> directions(beds.size());
+  for (int pass = 0; pass < kDepthPasses; ++pass) {
+    sums.assign(beds.size(), 0);
+    counts.assign(beds.size(), 0);
+    for (std::size_t s = 0; s < beds.size(); ++s) directions[s] = beds[s].outwards;
+    for (const auto& [a, b] : spans_) {
+      sums[a] += beds[b].depth;
+      sums[b] += beds[a].depth;
+      ++counts[a];
+      ++counts[b];
+      directions[a] += beds[b].outwards;
+      directions[b] += beds[a].outwards;
+    }
+    for (std::size_t s = 0; s < beds.size(); ++s)
+      if (directions[s].norm() > 0) beds[s].outwards = directions[s].normalized();
+    for (std::size_t s = 0; s < beds.size(); ++s)
+      if (counts[s] > 0 && limits[s] > 0)
+        beds[s].depth = 0.5f * beds[s].depth + 0.5f * sums[s] / static_cast<float>(counts[s]);
+  }
+  return beds;
 }
 
 bool WoundFlesh::has_lip(const RimEdge& edge) const {

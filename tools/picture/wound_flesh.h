@@ -48,6 +48,14 @@ class WoundFlesh {
     float along = 0;      ///< From the first section, metres.
     float thickness = 0;  ///< Of the body, metres.
   };
+  /// The ground of the wound at a section.
+  struct Bed {
+    Vec3f left, right, outwards;
+    float depth = 0;
+  };
+  [[nodiscard]] std::vector<Bed> make_beds(const std::vector<DeformedMesh>& closed,
+                                           const std::vector<DeformedMesh>& open,
+                                           float& widest) const;
   void find_sections(const TornModel& torn, std::span<const Wound> wounds);
   void measure(const TornModel& torn, const std::vector<DeformedMesh>& closed);
 

@@ -34,19 +34,19 @@ float noise(float x, float y) {
 }
 
 Vec3f flesh_color(float along, float across) {
-  const Vec3f skin(0.72f, 0.36f, 0.28f), fat(0.80f, 0.46f, 0.20f), muscle(0.50f, 0.030f, 0.025f),
-      fibre(0.62f, 0.085f, 0.060f), blood(0.20f, 0.004f, 0.006f);
+  const Vec3f skin(0.60f, 0.27f, 0.20f), fat(0.72f, 0.42f, 0.19f), muscle(0.33f, 0.022f, 0.018f),
+      fibre(0.46f, 0.060f, 0.042f), blood(0.15f, 0.004f, 0.005f);
   if (across < -1) {
     const float spots = 0.5f * noise(2.0f * along, 2.0f * across) + 0.5f * noise(7 * along, 7 * across);
     return mix(mix(muscle, fibre, spots), blood, 0.45f * noise(along, across));
   }
-  const float wander = 0.05f * (noise(3 * along, 4 * across) - 0.5f);
+  const float wander = 0.07f * (noise(4 * along, 3 * across) - 0.5f);
   const float from_lip = std::min(across, 1 - across) + wander;
   const float fibres = noise(1.5f * along, 26 * across) * 0.6f + noise(6 * along, 9 * across) * 0.4f;
   const float lobes = noise(9 * along, 30 * across);
-  Vec3f color = mix(skin, Vec3f(fat * (0.75f + 0.35f * lobes)), smooth_step(0.03f, 0.07f, from_lip));
-  color = mix(color, mix(muscle, fibre, fibres), smooth_step(0.09f, 0.16f, from_lip));
-  return mix(color, blood, 0.75f * smooth_step(0.30f, 0.48f, from_lip));
+  Vec3f color = mix(skin, Vec3f(fat * (0.75f + 0.35f * lobes)), smooth_step(0.05f, 0.09f, from_lip));
+  color = mix(color, mix(muscle, fibre, fibres), smooth_step(0.15f, 0.21f, from_lip));
+  return mix(color, blood, 0.7f * smooth_step(0.33f, 0.48f, from_lip));
 }
 
 }  // namespace sunder::tools

@@ -6,8 +6,8 @@
 namespace sunder::tools {
 namespace {
 
-constexpr std::size_t kSkyPerSample = 14, kLampPerSample = 3;
-constexpr float kLampSize = 0.16f;  ///< Radius, in distances of the lamp.
+constexpr std::size_t kSkyPerSample = 14, kLampPerSample = 4;
+constexpr float kLampSize = 0.10f;  ///< Radius, in distances of the lamp.
 const Vec3f kLamp(1.75f, 1.68f, 1.58f), kFill(0.20f, 0.22f, 0.26f), kAbove(0.86f, 0.90f, 0.98f),
     kGround(0.42f, 0.40f, 0.38f);
 

@@ -9,6 +9,7 @@
 namespace sunder::tools {
 namespace {
 
+constexpr float kEverywhere = 0.13f;  ///< Light that reaches even closed corners.
 constexpr float kFar = std::numeric_limits<float>::max() / 4;
 
 std::vector<TriangleTree::Corners> corners_of(const RenderScene& scene, bool only_opaque) {
@@ -164,8 +165,8 @@ Shading::Surface Shading::surface_at(const Hit& hit, const Vec3f& along) const {
     const float stretch = at_flesh.y() < -1 ? 7.0f : 20.0f;
     normal += size * ((noise(7 * at_flesh.x(), stretch * at_flesh.y()) - 0.5f) * side +
                       (noise(7 * at_flesh.x() + 40, stretch * at_flesh.y()) - 0.5f) * other);
-    surface.gloss = 0.5f;
-    surface.sharpness = 60;
+    surface.gloss = 0.20f;
+    surface.sharpness = 45;
     if (!material.is_flesh) surface.color.w() = 1;
   } else if (material.image != nullptr) {
     surface.color = surface.color.cwiseProduct(sampled(material, uv));
@@ -184,7 +185,7 @@ Vec4f Shading::shade(const Hit& hit, const Vec3f& along, std::size_t sample) con
   Vec4f result = surface.color;
   if (result.w() <= 0) return result;
   const Vec3f towards_eye = -along.normalized();
-  Vec3f diffuse = Vec3f::Zero(), mirrored = Vec3f::Zero();
+  Vec3f diffuse = Vec3f::Constant(kEverywhere), mirrored = Vec3f::Zero();
   const auto add = [&](const Lighting::Light& light, bool has_shadow) {
     const float facing = surface.normal.dot(light.towards);
     if (facing <= 0) return;
@@ -201,7 +202,7 @@ Vec4f Shading::shade(const Hit& hit, const Vec3f& along, std::size_t sample) con
     diffuse += 0.5f * facing * light.intensity;
   }
   result.head<3>() =
-      0.62f * surface.color.head<3>().cwiseProduct(diffuse) + surface.gloss * mirrored;
+      0.56f * surface.color.head<3>().cwiseProduct(diffuse) + surface.gloss * mirrored;
   return result;
 }
 

@@ -13,7 +13,7 @@
 namespace sunder::tools {
 namespace {
 
-const Vec3f kBackdrop(0.80f, 0.82f, 0.85f);  ///< Linear.
+const Vec3f kBackdrop(0.62f, 0.65f, 0.69f);  ///< Linear.
 constexpr int kMostLayers = 8;               ///< Of transparent surfaces.
 
 /// Rotated by about 27 degrees, so that steep and flat edges are smooth alike.

@@ -66,8 +66,12 @@ Status describe_miss(const Played& played, TearRun& run, Json& report) {
     if (!cause) return cause.error();
     miss->cause = *cause;
   }
-  run.messages.warn(played.place + ": " + played.outcome.op +
-                    " missed: " + miss_text(played.operation, *miss));
+  const std::string text =
+      played.place + ": " + played.outcome.op + " missed: " + miss_text(played.operation, *miss);
+  if (run.messages.is_quiet())
+    print_error("sunder: " + text);  // A stroke that misses is never silent.
+  else
+    run.messages.warn(text);
   report["miss"] = to_json(*miss);
   return {};
 }
