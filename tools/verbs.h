@@ -74,8 +74,8 @@ struct TearRequest {
   bool weight_errors = false;                   ///< Measured for the report.
   bool count_topology = false;                  ///< Per operation, for the report.
   OpenLips open = OpenLips::no;
-  bool dry_run = false;                         ///< Writes no files.
-  bool force = false;                           ///< Outputs may overwrite inputs.
+  bool dry_run = false;  ///< Writes no files.
+  bool force = false;    ///< Outputs may overwrite inputs.
   Verbosity verbosity = Verbosity::normal;
   std::optional<std::string> pieces;  ///< Beginning of the names of files for detached pieces.
   bool pieces_are_animated = false;

@@ -54,7 +54,8 @@ void check_morph_targets(const Character& character, const Character& before,
         (!has_more && mesh.first_morph_weight != old.first_morph_weight))
       refuse(StatusCode::invalid_argument, i,
              "save_glb: mesh %u: its morph targets do not begin with the source's", i);
-    const std::uint32_t first = first_on_node.try_emplace(source.mesh_origins[i].node, i).first->second;
+    const std::uint32_t first =
+        first_on_node.try_emplace(source.mesh_origins[i].node, i).first->second;
     const Mesh& other = character.meshes[first];
     const bool is_any_appended =
         has_more || other.morph_targets.size() > before.meshes[first].morph_targets.size();
@@ -82,9 +83,8 @@ void check_channels_of_appended(const Character& character, const Character& bef
       for (const Channel& channel : clip.channels) {
         const bool is_whole =
             channel.index == mesh.first_morph_weight && std::size_t{channel.width} == count;
-        const bool drives_some =
-            drives(channel, mesh.first_morph_weight, count) ||
-            drives(channel, old.first_morph_weight, old.morph_targets.size());
+        const bool drives_some = drives(channel, mesh.first_morph_weight, count) ||
+                                 drives(channel, old.first_morph_weight, old.morph_targets.size());
         if (drives_some && !is_whole)
           refuse(StatusCode::invalid_argument, i,
                  "save_glb: clip '%.60s' drives some of the morph weights of mesh %u, which has "
@@ -217,7 +217,8 @@ class Patch {
     const bool has_more_targets =
         first.morph_targets.size() > before_.meshes[meshes.front()].morph_targets.size();
     if (has_more_targets)
-      for (Json& primitive : primitives) writer_.fill_targets(primitive, first.morph_targets.size());
+      for (Json& primitive : primitives)
+        writer_.fill_targets(primitive, first.morph_targets.size());
 
     if (primitives.empty()) {
       // The mesh has no triangle left. The node must not refer to a mesh any more.

@@ -46,7 +46,8 @@ TEST_F(DemoCommand, the_model_is_not_overwritten) {
 }
 
 TEST_F(DemoCommand, demo_draws_its_pictures_without_any_other_program) {
-  const CommandResult result = run_sunder({"demo", model(), "-o", path("pictures")}, {{"PATH", "/nonexistent"}});
+  const CommandResult result =
+      run_sunder({"demo", model(), "-o", path("pictures")}, {{"PATH", "/nonexistent"}});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   for (const char* const name : {"motion", "before", "torn", "wound", "later_1", "later_2"})
     EXPECT_GT(std::filesystem::file_size(path("pictures/" + std::string(name) + ".png")), 10'000u)

@@ -22,8 +22,8 @@ class OpenCommand : public CactusSuite {
   /// Tears a model; the torn one.
   static LoadedCharacter torn(const std::string& from, const std::string& log,
                               const std::string& name, std::vector<std::string> more) {
-    std::vector<std::string> arguments = {"tear", from, "--ops", log, "-o", path(name), "--report",
-                                          path(name + ".json")};
+    std::vector<std::string> arguments = {"tear", from,       "--ops",    log,
+                                          "-o",   path(name), "--report", path(name + ".json")};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const CommandResult result = run_sunder(arguments);
     EXPECT_TRUE(result.exit_code == 0 || result.exit_code == 1) << from << '\n' << result.err;
@@ -95,8 +95,9 @@ TEST_F(OpenCommand, lips_gape_by_a_morph_target_from_the_moment_of_the_tear) {
   EXPECT_LT(apart(0.8), 1e-5);
   EXPECT_GT(apart(2.0), 0.25 * gap);
   EXPECT_LT(apart(0.9), apart(2.0) * 1.2);
-  EXPECT_GT(farthest(posed(*open.character, m, RestPose{}), posed(*closed.character, m, RestPose{})),
-            0.25 * gap);
+  EXPECT_GT(
+      farthest(posed(*open.character, m, RestPose{}), posed(*closed.character, m, RestPose{})),
+      0.25 * gap);
 }
 
 TEST_F(OpenCommand, vertices_that_were_one_gape_as_the_report_says) {

@@ -5,9 +5,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <jpeglib.h>
 
 #include <gtest/gtest.h>
-#include <jpeglib.h>
 
 #include "support/random.h"
 #include "support/temporary_folder.h"
@@ -91,7 +91,8 @@ TEST(Image, damaged_files_are_refused_or_read_in_part) {
     for (int i = 0; i < 300; ++i) {
       std::vector<std::byte> bytes = whole;
       for (int k = 0; k < 4; ++k)
-        bytes[3 + static_cast<std::size_t>(random.uniform(0, static_cast<double>(bytes.size() - 4)))] =
+        bytes[3 +
+              static_cast<std::size_t>(random.uniform(0, static_cast<double>(bytes.size() - 4)))] =
             static_cast<std::byte>(random.uniform(0, 255));
       if (i % 3 == 0) bytes.resize(bytes.size() / 2);
       const auto image = decode_image(bytes);
@@ -166,9 +167,8 @@ TEST(TriangleTree, finds_what_a_search_of_all_triangles_finds) {
 /// A square of 2 m at a height, facing up.
 void add_square(float height, float size, std::uint32_t material, RenderScene& scene) {
   const auto corner = [&](float x, float z) { return Vec3f(x * size, height, z * size); };
-  for (const auto& corners :
-       {std::array<Vec3f, 3>{corner(-1, -1), corner(-1, 1), corner(1, 1)},
-        std::array<Vec3f, 3>{corner(-1, -1), corner(1, 1), corner(1, -1)}}) {
+  for (const auto& corners : {std::array<Vec3f, 3>{corner(-1, -1), corner(-1, 1), corner(1, 1)},
+                              std::array<Vec3f, 3>{corner(-1, -1), corner(1, 1), corner(1, -1)}}) {
     RenderTriangle triangle;
     triangle.corners = corners;
     triangle.material = material;

@@ -63,12 +63,10 @@ ViewFrame choose_wound_view(const Character& character, const std::vector<Deform
   for (const double elevation : {0.12, 0.45, 0.9, -0.25})
     for (int i = 0; i < 16; ++i) {
       const double angle = std::numbers::pi * i / 8;
-      const ViewFrame frame =
-          view_from({std::sin(angle), elevation, std::cos(angle)});
+      const ViewFrame frame = view_from({std::sin(angle), elevation, std::cos(angle)});
       const double near = frame.towards_eye.dot(previous.towards_eye);
-      const double found =
-          score(tree, frame.towards_eye, wound, outwards, diagonal) + 0.15 * near -
-          0.1 * std::abs(elevation - 0.12);
+      const double found = score(tree, frame.towards_eye, wound, outwards, diagonal) + 0.15 * near -
+                           0.1 * std::abs(elevation - 0.12);
       if (found <= best_score) continue;
       best_score = found;
       best = frame;
@@ -101,8 +99,8 @@ Camera aim(const ViewFrame& frame, const std::vector<Vec3d>& places,
   std::vector<Vec3d> shown;
   if (closeness > 0 && length > 0) {
     const double nearest = kSurroundings * length;
-    const double radius = std::min(whole, std::pow(nearest, closeness) *
-                                              std::pow(0.5 * whole, 1 - closeness));
+    const double radius =
+        std::min(whole, std::pow(nearest, closeness) * std::pow(0.5 * whole, 1 - closeness));
     const Vec3d middle = of_wound.centre();
     for (const Vec3d& place : places)
       if ((place - middle).norm() < radius) shown.push_back(place);

@@ -63,8 +63,8 @@ class Motion {
     for (std::size_t m = 0; m < begin->size(); ++m)
       for (std::size_t v = 0; v < (*begin)[m].positions.size(); ++v)
         farthest = std::max(
-            farthest, static_cast<double>(
-                          ((*begin)[m].positions[v] - (*end)[m].positions[v]).norm()));
+            farthest,
+            static_cast<double>(((*begin)[m].positions[v] - (*end)[m].positions[v]).norm()));
     motion.runs_on_ = farthest < kSameEnds * bounds_of(character, *begin).size().norm();
     return motion;
   }
@@ -73,8 +73,7 @@ class Motion {
     if (character_.clips.empty()) return RestPose{};
     const auto duration = static_cast<double>(character_.clips[0].duration);
     double time = kTearFraction * duration + (frame - kFramesBefore) * kFrame;
-    if (runs_on_ && duration > 0)
-      time -= duration * std::floor(time / duration);
+    if (runs_on_ && duration > 0) time -= duration * std::floor(time / duration);
     return ClipPose{std::uint32_t{0}, std::clamp(time, 0.0, duration)};
   }
 
@@ -88,9 +87,9 @@ class Motion {
 Status tear_in_motion(int frame, TornActor& actor, std::size_t& next) {
   const int step = frame - kFramesBefore + 1;
   if (step < 1) return {};
-  const std::size_t wanted =
-      std::min(actor.blade_count(), (actor.blade_count() * static_cast<std::size_t>(step) +
-                                     kFramesOfTear - 1) / kFramesOfTear);
+  const std::size_t wanted = std::min(
+      actor.blade_count(),
+      (actor.blade_count() * static_cast<std::size_t>(step) + kFramesOfTear - 1) / kFramesOfTear);
   for (; next < wanted; ++next)
     if (const Status status = actor.tear_to(next); !status) return status;
   return {};
@@ -141,8 +140,7 @@ Status draw_shot(const Shot& shot, const DemoTear& tear, const ModelLooks& looks
   RenderScene scene = actor.scene(*posture, looks);
   add_floor(places, scene);
   const std::filesystem::path png = folder / (std::string(shot.name) + ".png");
-  if (const Status written = write_png(png, trace(scene, camera, kStill)); !written)
-    return written;
+  if (const Status written = write_png(png, trace(scene, camera, kStill)); !written) return written;
   if (&shot != &kShots[0]) return {};
   const auto untorn = posed_at(*tear.source, pose);
   if (!untorn) return untorn.error();

@@ -1,11 +1,11 @@
 #include "tools/open/bind_displacement.h"
 
-#include <Eigen/LU>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <vector>
+
+#include <Eigen/LU>
 
 namespace sunder::tools {
 namespace {

@@ -23,8 +23,7 @@ Result<std::vector<MorphTarget>> targets_of(const Character& torn, const Opening
       return Status::failure(StatusCode::size_mismatch, m,
                              "mesh %u: the opening is of %zu vertices, the mesh has %zu", m,
                              opening.closed[m].positions.size(), torn.meshes[m].positions.size());
-    auto target =
-        displacement_in_bind(torn, m, opening.pose, opening.closed[m], opening.open[m]);
+    auto target = displacement_in_bind(torn, m, opening.pose, opening.closed[m], opening.open[m]);
     if (!target) return target.error();
     target->name = kOpenTarget;
     targets.push_back(std::move(*target));
@@ -37,7 +36,8 @@ struct NodeWeights {
   std::uint32_t old_first = 0, first = 0, count = 0;  ///< Of the old ones.
 };
 
-/// The nodes with a mesh that gapes, and room for the weights of each at the end of the rest weights.
+/// The nodes with a mesh that gapes, and room for the weights of each at the end of the rest
+/// weights.
 std::map<std::uint32_t, NodeWeights> make_room(Character& character,
                                                const std::vector<MorphTarget>& targets,
                                                std::span<const std::uint32_t> nodes) {
@@ -50,8 +50,7 @@ std::map<std::uint32_t, NodeWeights> make_room(Character& character,
     const Mesh& mesh = character.meshes[m];
     NodeWeights& weights = found->second;  // Some meshes of a node may lack some targets.
     weights.old_first = mesh.first_morph_weight;
-    weights.count =
-        std::max(weights.count, static_cast<std::uint32_t>(mesh.morph_targets.size()));
+    weights.count = std::max(weights.count, static_cast<std::uint32_t>(mesh.morph_targets.size()));
   }
   std::vector<float>& rest = character.rest_morph_weights;
   for (auto& [node, weights] : of_node) {
@@ -98,8 +97,7 @@ void extend_channels(const NodeWeights& weights, const std::vector<WeightKey>* k
     is_driven = true;
   }
   if (!is_driven && keys != nullptr && course.size() > 1)
-    clip.channels.push_back(
-        with_weight(nullptr, rest, weights.old_first, course, weights.first));
+    clip.channels.push_back(with_weight(nullptr, rest, weights.old_first, course, weights.first));
 }
 
 }  // namespace

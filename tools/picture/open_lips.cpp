@@ -20,7 +20,7 @@ constexpr double kGapOfLength = 0.14, kGapOfThickness = 0.5;
 /// Tension is lowered by this factor while a larger share of the moved surface than this is folded.
 constexpr double kLess = 0.75, kFolded = 0.004;
 constexpr double kFirstTension = 1.0;  ///< Newtons per metre, to begin the search with.
-constexpr double kTaper = 0.4;  ///< Of a wound's length, at each end.
+constexpr double kTaper = 0.4;         ///< Of a wound's length, at each end.
 constexpr int kMostTrials = 6;
 constexpr int kMostSteps = 180;
 constexpr std::size_t kMostRays = 200;
@@ -142,8 +142,8 @@ Status choose_tension(GapingModel& model, const ModelPose& pose, double thicknes
     if (folded_share(model.instance, *posed) > kFolded) widest = kLess * tension;
     factor = std::min(factor, widest / tension);
     if (const Status status = model.instance.restore_tissue(*closed); !status) return status;
-    const bool is_enough = factor == std::numeric_limits<double>::infinity() ||
-                           (factor > 0.97 && factor < 1.03);
+    const bool is_enough =
+        factor == std::numeric_limits<double>::infinity() || (factor > 0.97 && factor < 1.03);
     if (!is_enough) model.tension.newtons_per_metre *= factor;
     if (const Status status = model.instance.body()->set_tension(model.tension); !status)
       return status;
@@ -283,7 +283,8 @@ void taper_wounds(const CharacterInstance& instance, std::span<const Wound> woun
                    allowed = widest * taper(from_end, length + step);
       if (width <= allowed) continue;
       const Vec3f move = static_cast<float>((width - allowed) / (2 * width)) * gap;
-      for (const auto& [mesh, vertex] : vertices.at(pair.left)) open[mesh].positions[vertex] += move;
+      for (const auto& [mesh, vertex] : vertices.at(pair.left))
+        open[mesh].positions[vertex] += move;
       for (const auto& [mesh, vertex] : vertices.at(pair.right))
         open[mesh].positions[vertex] -= move;
     }

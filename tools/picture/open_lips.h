@@ -20,11 +20,12 @@ struct Wound {
 };
 
 /// A torn character of soft tissue under an even tension that pulls its lips apart. The tension is
-/// chosen such that the widest wound gapes by a share of its length, or less where the body is thin.
+/// chosen such that the widest wound gapes by a share of its length, or less where the body is
+/// thin.
 struct GapingModel {
-  CharacterInstance instance;      ///< Closed yet: no time has passed.
-  std::vector<Wound> wounds;       ///< Those with lips.
-  std::vector<TearReport> reports; ///< One per operation.
+  CharacterInstance instance;       ///< Closed yet: no time has passed.
+  std::vector<Wound> wounds;        ///< Those with lips.
+  std::vector<TearReport> reports;  ///< One per operation.
   Tension tension;
 };
 

@@ -188,8 +188,7 @@ Status draw_torn(const LoadedCharacter& loaded, std::span<const Operation> histo
   if (robot != nullptr) frame = view_beside(frame);
   const Result<ModelLooks> looks = ModelLooks::create(loaded.source.get());
   if (!looks) return looks.error();
-  RenderScene scene =
-      make_torn_scene({torn, *closed, open, wounds}, *looks, kThickness * diagonal);
+  RenderScene scene = make_torn_scene({torn, *closed, open, wounds}, *looks, kThickness * diagonal);
   add_robot(*beside, *looks, scene);
   // The picture of a cut shows its pieces, that of a bore its surroundings.
   const double margin = cut != nullptr                                   ? 3.1

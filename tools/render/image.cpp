@@ -3,7 +3,6 @@
 #include <csetjmp>
 #include <cstdio>
 #include <cstring>
-
 #include <jpeglib.h>
 #include <png.h>
 
@@ -13,10 +12,9 @@ namespace {
 constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 26;
 
 Status too_large(std::uint64_t width, std::uint64_t height) {
-  return Status::failure(StatusCode::limit_exceeded, kNone,
-                         "an image has %llu x %llu pixels; 2^26 are read at most",
-                         static_cast<unsigned long long>(width),
-                         static_cast<unsigned long long>(height));
+  return Status::failure(
+      StatusCode::limit_exceeded, kNone, "an image has %llu x %llu pixels; 2^26 are read at most",
+      static_cast<unsigned long long>(width), static_cast<unsigned long long>(height));
 }
 
 Result<Image> decode_png(std::span<const std::byte> file) {
@@ -59,9 +57,9 @@ void stay_silent(j_common_ptr /*jpeg*/) {}
 void read_rows(jpeg_decompress_struct& jpeg, Image& image) {
   const int channels = jpeg.out_color_components;
   while (jpeg.output_scanline < jpeg.output_height) {
-    std::uint8_t* const row =
-        image.rgba.data() +
-        std::size_t{4} * static_cast<std::size_t>(image.width) * jpeg.output_scanline;
+    std::uint8_t* const row = image.rgba.data() + std::size_t{4} *
+                                                      static_cast<std::size_t>(image.width) *
+                                                      jpeg.output_scanline;
     std::uint8_t* rows[] = {row};
     if (jpeg_read_scanlines(&jpeg, rows, 1) != 1) break;
     for (int x = image.width - 1; x >= 0; --x) {  // From the end, because they grow in place.

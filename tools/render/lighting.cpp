@@ -24,8 +24,8 @@ Lighting::Lighting(const Camera& camera) {
     const Vec3f towards = Vec3d(r * std::cos(angle), y, r * std::sin(angle)).cast<float>();
     const float height = 0.5f + 0.5f * towards.y();
     // The mean of cosines over a sphere is a quarter.
-    const Vec3f light = 4.0f * (height * kAbove + (1 - height) * kGround) /
-                        static_cast<float>(kSkyPerSample);
+    const Vec3f light =
+        4.0f * (height * kAbove + (1 - height) * kGround) / static_cast<float>(kSkyPerSample);
     sky_[i % kSamples].push_back({towards, light});
   }
   const Vec3d middle = (back - 0.65 * right + 1.05 * up).normalized();

@@ -5,7 +5,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-
 #include <zlib.h>
 
 #include "tools/messages/text_file.h"
@@ -31,9 +30,9 @@ void append_chunk(Bytes& file, std::string_view kind, const Bytes& data) {
   const std::size_t begin = file.size();
   file += kind;
   file += data;
-  append_u32(file, static_cast<std::uint32_t>(
-                       crc32(0, reinterpret_cast<const Bytef*>(file.data() + begin),
-                             static_cast<uInt>(file.size() - begin))));
+  append_u32(
+      file, static_cast<std::uint32_t>(crc32(0, reinterpret_cast<const Bytef*>(file.data() + begin),
+                                             static_cast<uInt>(file.size() - begin))));
 }
 
 Bytes deflated(const Bytes& data) {
@@ -137,8 +136,8 @@ Status write_animated_png(const std::filesystem::path& file, const std::vector<P
   std::uint32_t number = 0;
   for (std::size_t i = 0; i < pictures.size(); ++i) {
     const Picture& picture = pictures[i];
-    const PixelBox box =
-        i == 0 ? PixelBox{0, 0, picture.width, picture.height} : difference(pictures[i - 1], picture);
+    const PixelBox box = i == 0 ? PixelBox{0, 0, picture.width, picture.height}
+                                : difference(pictures[i - 1], picture);
     append_chunk(bytes, "fcTL", frame_control(number++, box, milliseconds));
     const Bytes data = deflated(indexed_rows(picture, box, palette));
     if (i == 0) {

@@ -43,7 +43,9 @@ const std::array<float, 256>& linear_from_srgb() {
 /// The bilinear mean of the four pixels around a place.
 Vec4f sampled(const RenderMaterial& material, const Vec2f& uv) {
   const Image& image = *material.image;
-  const auto fold = [](float value) { return std::isfinite(value) ? std::fmod(value, 2.0f) : 0.0f; };
+  const auto fold = [](float value) {
+    return std::isfinite(value) ? std::fmod(value, 2.0f) : 0.0f;
+  };
   const bool clamps_u = material.wrap[0] == RenderMaterial::Wrap::clamp,
              clamps_v = material.wrap[1] == RenderMaterial::Wrap::clamp;
   const float u = clamps_u ? std::clamp(uv.x(), 0.0f, 1.0f) : fold(uv.x()),
@@ -53,13 +55,12 @@ Vec4f sampled(const RenderMaterial& material, const Vec2f& uv) {
   const float left = std::floor(x), top = std::floor(y);
   Vec4f sum = Vec4f::Zero();
   for (int i = 0; i < 4; ++i) {
-    const int column =
-        wrapped(static_cast<int>(left) + (i & 1), image.width, material.wrap[0]);
+    const int column = wrapped(static_cast<int>(left) + (i & 1), image.width, material.wrap[0]);
     const int row = wrapped(static_cast<int>(top) + (i >> 1), image.height, material.wrap[1]);
     const std::uint8_t* const pixel =
         &image.rgba[std::size_t{4} * static_cast<std::size_t>(row * image.width + column)];
-    const float weight = ((i & 1) != 0 ? x - left : 1 - (x - left)) *
-                         ((i >> 1) != 0 ? y - top : 1 - (y - top));
+    const float weight =
+        ((i & 1) != 0 ? x - left : 1 - (x - left)) * ((i >> 1) != 0 ? y - top : 1 - (y - top));
     const auto& linear = linear_from_srgb();
     sum += weight * Vec4f(linear[pixel[0]], linear[pixel[1]], linear[pixel[2]],
                           static_cast<float>(pixel[3]) / 255);
@@ -206,7 +207,7 @@ Vec4f Shading::shade(const Hit& hit, const Vec3f& along, std::size_t sample) con
   return result;
 }
 
-float Shading::light_on_floor(const Vec3f& place, std::size_t sample) const {
+float Shading::light_on_floor(const Vec3f& place) const {
   float lit = 0, all = 0;
   const auto add = [&](const Lighting::Light& light) {
     if (light.towards.y() <= 0) return;
@@ -214,8 +215,10 @@ float Shading::light_on_floor(const Vec3f& place, std::size_t sample) const {
     all += brightness;
     if (!opaque_.is_blocked(place, light.towards, kFar)) lit += brightness;
   };
-  for (const Lighting::Light& light : lighting_.lamp(sample)) add(light);
-  for (const Lighting::Light& light : lighting_.sky(sample)) add(light);
+  for (std::size_t sample = 0; sample < Lighting::kSamples; ++sample) {
+    for (const Lighting::Light& light : lighting_.lamp(sample)) add(light);
+    for (const Lighting::Light& light : lighting_.sky(sample)) add(light);
+  }
   return all > 0 ? lit / all : 1.0f;
 }
 

@@ -22,7 +22,7 @@ class Shading {
   /// Linear RGB, and how much of what is behind the surface it hides.
   [[nodiscard]] Vec4f shade(const Hit& hit, const Vec3f& along, std::size_t sample) const;
   /// The share of the light that reaches a place on the floor.
-  [[nodiscard]] float light_on_floor(const Vec3f& place, std::size_t sample) const;
+  [[nodiscard]] float light_on_floor(const Vec3f& place) const;
 
  private:
   struct Surface;

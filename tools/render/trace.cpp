@@ -14,6 +14,8 @@ namespace sunder::tools {
 namespace {
 
 const Vec3f kBackdrop(0.62f, 0.65f, 0.69f);  ///< Linear.
+constexpr float kDarkest = 0.62f;            ///< Share of the floor's light that a shadow takes.
+constexpr int kPixelsOfCell = 5;             ///< Where the light of the floor is measured.
 constexpr int kMostLayers = 8;               ///< Of transparent surfaces.
 
 /// Rotated by about 27 degrees, so that steep and flat edges are smooth alike.
@@ -47,6 +49,24 @@ class Tracer {
         greatest = greatest.cwiseMax(corner);
       }
     middle_ = (least + greatest) / 2;
+    cells_ = size.width / kPixelsOfCell + 1;
+    if (scene.floor_radius > 0)
+      floor_.assign(static_cast<std::size_t>(cells_ + 1) * static_cast<std::size_t>(cells_ + 1), 1);
+  }
+
+  /// Places along a side of the floor where its light is measured; a row of them before pixels.
+  [[nodiscard]] int floor_rows() const { return scene_.floor_radius > 0 ? cells_ + 1 : 0; }
+  void light_floor(int row) {
+    for (int column = 0; column <= cells_; ++column) {
+      const Vec2f offset =
+          scene_.floor_radius * (2.0f * Vec2f(static_cast<float>(column), static_cast<float>(row)) /
+                                     static_cast<float>(cells_) -
+                                 Vec2f(1, 1));
+      if (offset.norm() > 1.1f * scene_.floor_radius) continue;
+      float& light = floor_[static_cast<std::size_t>(row * (cells_ + 1) + column)];
+      light = shading_.light_on_floor(
+          {middle_.x() + offset.x(), scene_.floor, middle_.z() + offset.y()});
+    }
   }
 
   [[nodiscard]] Picture::Color pixel(int x, int y) const {
@@ -74,18 +94,31 @@ class Tracer {
       left *= 1 - shaded.w();
       from += hit.distance * 1.00001f;
     }
-    return left > 0.01f ? Vec3f(sum + left * background(along, height, sample)) : sum;
+    return left > 0.01f ? Vec3f(sum + left * background(along, height)) : sum;
   }
 
-  [[nodiscard]] Vec3f background(const Vec3f& along, float height, std::size_t sample) const {
+  [[nodiscard]] Vec3f background(const Vec3f& along, float height) const {
     const Vec3f backdrop = (1 + 0.08f * height) * kBackdrop;
     if (scene_.floor_radius <= 0 || along.y() >= 0 || eye_.y() <= scene_.floor) return backdrop;
     const Vec3f place = eye_ + (scene_.floor - eye_.y()) / along.y() * along;
-    const float beside = Vec2f(place.x() - middle_.x(), place.z() - middle_.z()).norm();
-    const float fade = 1 - beside / scene_.floor_radius;
+    const Vec2f offset(place.x() - middle_.x(), place.z() - middle_.z());
+    const float fade = 1 - offset.norm() / scene_.floor_radius;
     if (fade <= 0) return backdrop;
-    const float lit = shading_.light_on_floor(place, sample);
-    return (1 - std::min(1.0f, 2 * fade) * 0.62f * (1 - lit)) * backdrop;
+    return (1 - std::min(1.0f, 2 * fade) * kDarkest * (1 - floor_light(offset))) * backdrop;
+  }
+
+  /// Light on the floor, between the four nearest places where it is known.
+  [[nodiscard]] float floor_light(const Vec2f& offset) const {
+    const Vec2f at =
+        (offset / scene_.floor_radius + Vec2f(1, 1)) * (0.5f * static_cast<float>(cells_));
+    const int column = std::clamp(static_cast<int>(at.x()), 0, cells_ - 1),
+              row = std::clamp(static_cast<int>(at.y()), 0, cells_ - 1);
+    const float u = at.x() - static_cast<float>(column), v = at.y() - static_cast<float>(row);
+    const auto light = [this](int x, int y) {
+      return floor_[static_cast<std::size_t>(y * (cells_ + 1) + x)];
+    };
+    return (1 - v) * ((1 - u) * light(column, row) + u * light(column + 1, row)) +
+           v * ((1 - u) * light(column, row + 1) + u * light(column + 1, row + 1));
   }
 
   const RenderScene& scene_;
@@ -93,25 +126,35 @@ class Tracer {
   Shading shading_;
   PictureSize size_;
   Vec3f eye_, right_, up_, forward_, middle_;
+  int cells_ = 1;  ///< Along a side of the square around the floor.
+  std::vector<float> floor_;
 };
 
-}  // namespace
-
-Picture trace(const RenderScene& scene, const Camera& camera, const PictureSize& size) {
-  const Tracer tracer(scene, camera, size);
-  Picture picture{size.width, size.height, {}};
-  picture.colors.resize(static_cast<std::size_t>(size.width) *
-                        static_cast<std::size_t>(size.height));
+/// Calls draw(row) for all rows, on all threads.
+template <class Draw>
+void for_each_row(int rows, const Draw& draw) {
   std::atomic<int> next = 0;
   const auto draw_rows = [&] {
-    for (int y = next++; y < size.height; y = next++)
-      for (int x = 0; x < size.width; ++x)
-        picture.colors[static_cast<std::size_t>(y * size.width + x)] = tracer.pixel(x, y);
+    for (int row = next++; row < rows; row = next++) draw(row);
   };
   std::vector<std::thread> others;
   for (unsigned i = 1; i < std::thread::hardware_concurrency(); ++i) others.emplace_back(draw_rows);
   draw_rows();
   for (std::thread& thread : others) thread.join();
+}
+
+}  // namespace
+
+Picture trace(const RenderScene& scene, const Camera& camera, const PictureSize& size) {
+  Tracer tracer(scene, camera, size);
+  for_each_row(tracer.floor_rows(), [&tracer](int row) { tracer.light_floor(row); });
+  Picture picture{size.width, size.height, {}};
+  picture.colors.resize(static_cast<std::size_t>(size.width) *
+                        static_cast<std::size_t>(size.height));
+  for_each_row(size.height, [&](int y) {
+    for (int x = 0; x < size.width; ++x)
+      picture.colors[static_cast<std::size_t>(y * size.width + x)] = tracer.pixel(x, y);
+  });
   return picture;
 }
 

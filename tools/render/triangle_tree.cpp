@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numeric>
+#include <utility>
 
 namespace sunder::tools {
 namespace {
@@ -75,12 +77,11 @@ void TriangleTree::build(std::span<const Corners> triangles, std::span<Index> pa
   Eigen::Index axis = 0;
   (high - low).maxCoeff(&axis);
   const std::size_t half = part.size() / 2;
-  std::nth_element(part.begin(), part.begin() + static_cast<std::ptrdiff_t>(half), part.end(),
-                   [&](Index a, Index b) {
-                     return middles[a][axis] != middles[b][axis]
-                                ? middles[a][axis] < middles[b][axis]
-                                : a < b;
-                   });
+  std::nth_element(
+      part.begin(), part.begin() + static_cast<std::ptrdiff_t>(half), part.end(),
+      [&](Index a, Index b) {
+        return middles[a][axis] != middles[b][axis] ? middles[a][axis] < middles[b][axis] : a < b;
+      });
   build(triangles, part.first(half), middles);
   nodes_[at].first = static_cast<Index>(nodes_.size());
   build(triangles, part.subspan(half), middles);
@@ -92,16 +93,25 @@ TriangleTree::Hit TriangleTree::search(const Vec3f& from, const Vec3f& along,
   Hit best{kNone, farthest};
   if (nodes_.empty()) return best;
   const Vec3f inverse = along.cwiseInverse();
-  std::array<Index, kMostOpen> open;
+  const auto enter = [&](Index at) {
+    return entry(nodes_[at].least, nodes_[at].greatest, from, inverse, best.distance);
+  };
+  struct Waiting {
+    Index node;
+    float distance;
+  };
+  std::array<Waiting, kMostOpen> open;
   std::size_t count = 0;
-  open[count++] = 0;
+  open[count++] = {0, enter(0)};
   while (count > 0) {
-    const Index at = open[--count];
-    const Node& node = nodes_[at];
-    if (entry(node.least, node.greatest, from, inverse, best.distance) > best.distance) continue;
+    const Waiting next = open[--count];
+    if (next.distance > best.distance) continue;
+    const Node& node = nodes_[next.node];
     if (node.count == 0) {
-      open[count++] = node.first;
-      open[count++] = at + 1;
+      Waiting near{next.node + 1, enter(next.node + 1)}, far{node.first, enter(node.first)};
+      if (far.distance < near.distance) std::swap(near, far);
+      if (far.distance <= best.distance) open[count++] = far;
+      if (near.distance <= best.distance) open[count++] = near;
       continue;
     }
     for (Index t = node.first; t < node.first + node.count; ++t) {

@@ -32,7 +32,8 @@ class TriangleTree {
     Index first = 0;  ///< Of a leaf: its first triangle; otherwise its second child.
     Index count = 0;  ///< Triangles of a leaf; 0: the first child follows the node.
   };
-  void build(std::span<const Corners> triangles, std::span<Index> part, std::span<const Vec3f> middles);
+  void build(std::span<const Corners> triangles, std::span<Index> part,
+             std::span<const Vec3f> middles);
   template <bool kAny>
   [[nodiscard]] Hit search(const Vec3f& from, const Vec3f& along, float farthest) const;
 

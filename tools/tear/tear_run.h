@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "tools/messages/messages.h"
-#include "tools/open/opening.h"
 #include "tools/model/posed_source.h"
+#include "tools/open/opening.h"
 #include "tools/tear/detached_pieces.h"
 #include "tools/tear/report.h"
 #include "tools/tear/robot_tear.h"
