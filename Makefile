@@ -1,10 +1,11 @@
 # Shortcuts: each target installs missing packages, configures, builds and runs, using the CMake presets.
 .DEFAULT_GOAL := help
-.PHONY: help demo unit test bench stress fuzz format
+.PHONY: help demo pictures unit test bench stress fuzz format
 jobs := $(shell nproc)
 
 help:
 	@echo 'make demo     tears a model in the middle of its animation; pictures, GLB and report in demo/'
+	@echo 'make pictures draws all pictures of docs/ anew; before and after side by side in build/pictures/'
 	@echo 'make unit     builds everything and runs the unit tests, which take under two minutes'
 	@echo 'make test     builds everything and runs all tests'
 	@echo 'make bench    runs the benchmarks'
@@ -13,11 +14,17 @@ help:
 	@echo 'make format   clang-format over all our C++'
 
 demo:
-	scripts/setup demo
+	scripts/setup
 	cmake --preset release
 	cmake --build --preset release --target sunder
 	build/release/tools/sunder demo -o demo
 	@echo; echo 'Look at:'; ls demo/*.png
+
+pictures:
+	scripts/setup demo test pictures
+	cmake --preset release
+	cmake --build --preset release --target sunder soft_pictures write_page_example
+	scripts/pictures --compare build/pictures
 
 unit:
 	scripts/setup test

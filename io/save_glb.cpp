@@ -5,6 +5,7 @@
 #include "io/gltf_still/still_document.h"
 #include "io/gltf_write/new_document.h"
 #include "io/internal/copied_materials.h"
+#include "io/internal/mesh_nodes.h"
 
 namespace sunder {
 
@@ -27,6 +28,12 @@ Status save_glb(const std::filesystem::path& file, const Character& character,
 Status save_with_materials(const std::filesystem::path& file, const Character& character,
                            const SourceDocument& materials, const SaveOptions& options) {
   return gltf::write_with_materials(file, character, materials, options);
+}
+
+std::vector<std::uint32_t> nodes_of_meshes(const SourceDocument& source) {
+  std::vector<std::uint32_t> nodes;
+  for (const SourceDocument::MeshOrigin& origin : source.mesh_origins) nodes.push_back(origin.node);
+  return nodes;
 }
 
 Result<std::uint32_t> save_still(const std::filesystem::path& file, const StillScene& scene,

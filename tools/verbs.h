@@ -44,6 +44,13 @@ struct RobotTearRequest {
   TearOptions options;
 };
 
+/// How `sunder tear --open` writes gaping lips.
+enum class OpenLips : std::uint8_t {
+  no,     ///< Lips coincide.
+  morph,  ///< As a morph target whose weight opens them.
+  baked,  ///< In the positions.
+};
+
 /// sunder tear: applies operations to a model: those of a log, then those of the command line.
 struct TearRequest {
   /// An operation of the command line, and the option that gives it: "--slash LeftArm@0.4".
@@ -66,8 +73,9 @@ struct TearRequest {
   std::optional<std::filesystem::path> report;  ///< JSON; "-": stdout. Empty: a summary instead.
   bool weight_errors = false;                   ///< Measured for the report.
   bool count_topology = false;                  ///< Per operation, for the report.
-  bool dry_run = false;                         ///< Writes no files.
-  bool force = false;                           ///< Outputs may overwrite inputs.
+  OpenLips open = OpenLips::no;
+  bool dry_run = false;  ///< Writes no files.
+  bool force = false;    ///< Outputs may overwrite inputs.
   Verbosity verbosity = Verbosity::normal;
   std::optional<std::string> pieces;  ///< Beginning of the names of files for detached pieces.
   bool pieces_are_animated = false;
@@ -105,6 +113,7 @@ struct PictureRequest {
 struct DemoRequest {
   std::optional<std::filesystem::path> model;  ///< Empty: the embedded model.
   std::filesystem::path folder = "demo";
+  bool no_pictures = false;
 };
 [[nodiscard]] ExitCode run_demo(const DemoRequest& request);
 

@@ -42,6 +42,58 @@ void check_skins_of_nodes(const Character& character, const Character& before,
   }
 }
 
+/// Morph targets may be appended to a mesh. Its weights may then be elsewhere, and are those of all
+/// meshes of its node.
+void check_morph_targets(const Character& character, const Character& before,
+                         const SourceDocument& source) {
+  std::map<std::uint32_t, std::uint32_t> first_on_node;
+  for (std::uint32_t i = 0; i < character.meshes.size(); ++i) {
+    const Mesh &mesh = character.meshes[i], &old = before.meshes[i];
+    const bool has_more = mesh.morph_targets.size() > old.morph_targets.size();
+    if (mesh.morph_targets.size() < old.morph_targets.size() ||
+        (!has_more && mesh.first_morph_weight != old.first_morph_weight))
+      refuse(StatusCode::invalid_argument, i,
+             "save_glb: mesh %u: its morph targets do not begin with the source's", i);
+    const std::uint32_t first =
+        first_on_node.try_emplace(source.mesh_origins[i].node, i).first->second;
+    const Mesh& other = character.meshes[first];
+    const bool is_any_appended =
+        has_more || other.morph_targets.size() > before.meshes[first].morph_targets.size();
+    if (is_any_appended && (mesh.morph_targets.size() != other.morph_targets.size() ||
+                            mesh.first_morph_weight != other.first_morph_weight))
+      refuse(StatusCode::invalid_argument, i,
+             "save_glb: meshes %u and %u are of one node, but have different morph weights", first,
+             i);
+  }
+}
+
+/// Whether a channel drives some of `count` weights from `first` on.
+bool drives(const Channel& channel, std::size_t first, std::size_t count) {
+  return channel.target == ChannelTarget::morph_weights && channel.index < first + count &&
+         first < std::size_t{channel.index} + channel.width;
+}
+
+/// Clips must drive all weights of a mesh with appended targets, where they are now.
+void check_channels_of_appended(const Character& character, const Character& before) {
+  for (std::uint32_t i = 0; i < character.meshes.size(); ++i) {
+    const Mesh &mesh = character.meshes[i], &old = before.meshes[i];
+    const std::size_t count = mesh.morph_targets.size();
+    if (count == old.morph_targets.size()) continue;
+    for (const Clip& clip : character.clips)
+      for (const Channel& channel : clip.channels) {
+        const bool is_whole =
+            channel.index == mesh.first_morph_weight && std::size_t{channel.width} == count;
+        const bool drives_some = drives(channel, mesh.first_morph_weight, count) ||
+                                 drives(channel, old.first_morph_weight, old.morph_targets.size());
+        if (drives_some && !is_whole)
+          refuse(StatusCode::invalid_argument, i,
+                 "save_glb: clip '%.60s' drives some of the morph weights of mesh %u, which has "
+                 "%zu now",
+                 clip.name.c_str(), i, count);
+      }
+  }
+}
+
 void check_same_character(const Character& character, const LoadedCharacter& loaded) {
   if (loaded.character == nullptr || loaded.source == nullptr)
     refuse(StatusCode::invalid_argument, kNone,
@@ -65,11 +117,9 @@ void check_same_character(const Character& character, const LoadedCharacter& loa
   const std::size_t material_count = count_of(loaded.source->json, "materials");
   for (std::uint32_t i = 0; i < character.meshes.size(); ++i) {
     const Mesh &mesh = character.meshes[i], &before = source.meshes[i];
-    if ((mesh.skin != before.skin && mesh.skin < source.skins.size()) ||
-        mesh.first_morph_weight != before.first_morph_weight ||
-        mesh.morph_targets.size() != before.morph_targets.size())
+    if (mesh.skin != before.skin && mesh.skin < source.skins.size())
       refuse(StatusCode::invalid_argument, i,
-             "save_glb: mesh %u: its skin or its morph targets differ from the source's", i);
+             "save_glb: mesh %u: its skin differs from the source's", i);
     for (const Submesh& submesh : mesh.submeshes)
       if (submesh.material != kNone && submesh.material >= material_count)
         refuse(StatusCode::index_out_of_range, i,
@@ -78,6 +128,8 @@ void check_same_character(const Character& character, const LoadedCharacter& loa
   }
   if (const Status status = validate_character(character); !status) throw Refusal{status};
   check_skins_of_nodes(character, source, *loaded.source);
+  check_morph_targets(character, source, *loaded.source);
+  check_channels_of_appended(character, source);
 }
 
 /// Flags torn meshes, and meshes that loading repaired.
@@ -161,6 +213,12 @@ class Patch {
       if (!primitive.is_null()) primitives.push_back(primitive);
     }
     for (Json& primitive : additional) primitives.push_back(std::move(primitive));
+    const Mesh& first = character_.meshes[meshes.front()];
+    const bool has_more_targets =
+        first.morph_targets.size() > before_.meshes[meshes.front()].morph_targets.size();
+    if (has_more_targets)
+      for (Json& primitive : primitives)
+        writer_.fill_targets(primitive, first.morph_targets.size());
 
     if (primitives.empty()) {
       // The mesh has no triangle left. The node must not refer to a mesh any more.
@@ -169,17 +227,32 @@ class Patch {
       without_mesh_.insert(node_index);
       return;
     }
-    if (nodes_of_mesh_[mesh_index] == 1) {
-      draft_.json["meshes"][mesh_index]["primitives"] = std::move(primitives);
-      return;
-    }
-    --nodes_of_mesh_[mesh_index];
-    nodes_of_mesh_.push_back(1);
-    Json copy = old_mesh;  // Other nodes use this mesh too, and are not torn.
-    copy["primitives"] = std::move(primitives);
     Json& all = draft_.json["meshes"];
-    all.push_back(std::move(copy));
-    node["mesh"] = all.size() - 1;
+    std::size_t written = mesh_index;
+    if (nodes_of_mesh_[mesh_index] > 1) {
+      --nodes_of_mesh_[mesh_index];
+      nodes_of_mesh_.push_back(1);
+      Json copy = old_mesh;  // Other nodes use this mesh too, and are not torn.
+      all.push_back(std::move(copy));
+      written = all.size() - 1;
+      node["mesh"] = written;
+    }
+    all[written]["primitives"] = std::move(primitives);
+    if (has_more_targets) write_morph_weights(first, all[written], node);
+  }
+
+  /// The rest weights and names of a mesh with appended targets.
+  void write_morph_weights(const Mesh& mesh, Json& gltf_mesh, Json& node) const {
+    Json weights = Json::array(), names = Json::array();
+    for (std::size_t i = 0; i < mesh.morph_targets.size(); ++i) {
+      const float weight = character_.rest_morph_weights[mesh.first_morph_weight + i];
+      weights.push_back(static_cast<double>(weight));
+      names.push_back(mesh.morph_targets[i].name);
+    }
+    gltf_mesh["weights"] = weights;
+    if (node.contains("weights")) node["weights"] = std::move(weights);
+    Json& extras = gltf_mesh["extras"];
+    if (extras.is_object() || extras.is_null()) extras["targetNames"] = std::move(names);
   }
 
   void rewrite_primitives(std::uint32_t mesh_index, const Json& old_primitives,

@@ -222,16 +222,28 @@ Json MeshWriter::add_targets(const Mesh& mesh) {
     if (!target.tangent_deltas.empty() && !mesh.tangents.empty())
       deltas["TANGENT"] = add_vectors(target.tangent_deltas);
     // A target without deltas is not valid either; an accessor of zeros takes no space.
-    if (deltas.empty())
-      deltas["POSITION"] =
-          add_accessor({{"componentType", static_cast<std::uint32_t>(ComponentType::f32)},
-                        {"count", mesh.positions.size()},
-                        {"type", "VEC3"},
-                        {"min", {0.0, 0.0, 0.0}},
-                        {"max", {0.0, 0.0, 0.0}}});
+    if (deltas.empty()) deltas["POSITION"] = add_zeros(mesh.positions.size());
     targets.push_back(std::move(deltas));
   }
   return targets;
+}
+
+std::uint32_t MeshWriter::add_zeros(std::size_t count) {
+  return add_accessor({{"componentType", static_cast<std::uint32_t>(ComponentType::f32)},
+                       {"count", count},
+                       {"type", "VEC3"},
+                       {"min", {0.0, 0.0, 0.0}},
+                       {"max", {0.0, 0.0, 0.0}}});
+}
+
+void MeshWriter::fill_targets(Json& primitive, std::size_t count) {
+  const std::size_t present = primitive.contains("targets") ? primitive["targets"].size() : 0;
+  if (present >= count) return;
+  const auto positions = primitive["attributes"]["POSITION"].get<std::size_t>();
+  const std::uint32_t zeros =
+      add_zeros(draft_.json["accessors"][positions]["count"].get<std::size_t>());
+  Json& targets = list_of(primitive, "targets");
+  while (targets.size() < count) targets.push_back({{"POSITION", zeros}});
 }
 
 std::uint32_t MeshWriter::add_indices(const Mesh& mesh, std::uint32_t submesh) {

@@ -38,6 +38,9 @@ class MeshWriter {
   [[nodiscard]] Vertices add_vertices(const Mesh& mesh, const SourceDocument::MeshOrigin& origin,
                                       InfluenceForm form);
 
+  /// Appends targets that displace nothing to a primitive until it has `count`.
+  void fill_targets(Json& primitive, std::size_t count);
+
   /// Whether the mesh is written at all; retired triangles are not.
   [[nodiscard]] static bool has_triangles(const Mesh& mesh);
 
@@ -61,6 +64,7 @@ class MeshWriter {
   template <class Weight>
   std::uint32_t add_weights(const std::vector<Weight>& weights);
   Json add_targets(const Mesh& mesh);
+  std::uint32_t add_zeros(std::size_t count);
 
   GlbDraft& draft_;
 };

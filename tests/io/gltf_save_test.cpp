@@ -523,6 +523,60 @@ TEST(SaveGlb, morph_targets_come_back) {
   EXPECT_EQ(saved.again->character->rest_morph_weights, torn.rest_morph_weights);
 }
 
+/// A target for each vertex that moves it by a different distance.
+MorphTarget target_for(const Mesh& mesh, const std::string& name) {
+  MorphTarget target{name, {}, {}, {}};
+  for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v)
+    target.position_deltas.emplace_back(0.5f, 0.25f * static_cast<float>(v), 0.0f);
+  return target;
+}
+
+TEST(SaveGlb, morph_targets_can_be_appended_to_all_meshes_of_a_node) {
+  GltfBuilder builder = skinned_strip();
+  builder.json["meshes"].push_back(builder.json["meshes"][0]);
+  builder.json["nodes"].push_back({{"name", "other"}, {"mesh", 1}, {"skin", 0}});
+  builder.json["scenes"][0]["nodes"].push_back(3);
+  std::vector<float> deltas(kStripVertices * 3, 0.125f);
+  const std::size_t accessor = builder.add(deltas, "VEC3");
+  builder.json["accessors"][accessor]["min"] = {0.125, 0.125, 0.125};
+  builder.json["accessors"][accessor]["max"] = {0.125, 0.125, 0.125};
+  builder.json["meshes"][0]["primitives"][0]["targets"] = Json::array({{{"POSITION", accessor}}});
+  builder.json["meshes"][0]["weights"] = {0.5};
+  builder.json["meshes"][0]["extras"]["targetNames"] = {"puff"};
+  const LoadedCharacter loaded = loaded_strip(builder);
+  ASSERT_EQ(loaded.character->meshes.size(), 2u);
+
+  Character more = *loaded.character;
+  Mesh& mesh = more.meshes[0];
+  mesh.morph_targets.push_back(target_for(mesh, "lean"));
+  mesh.first_morph_weight = static_cast<std::uint32_t>(more.rest_morph_weights.size());
+  more.rest_morph_weights.insert(more.rest_morph_weights.end(), {0.5f, 0.75f});
+  const Saved saved = save(more, loaded);
+  ASSERT_TRUE(saved.again.has_value());
+  const Character& again = *saved.again->character;
+  EXPECT_EQ(again.meshes[0].morph_targets, mesh.morph_targets);
+  expect_same_content(again.meshes[1], loaded.character->meshes[1]);
+  const std::uint32_t first = again.meshes[0].first_morph_weight;
+  EXPECT_EQ(again.rest_morph_weights[first], 0.5f);
+  EXPECT_EQ(again.rest_morph_weights[first + 1], 0.75f);
+
+  // What the file cannot hold is refused: fewer targets, and weights that a clip drives in part.
+  const TemporaryFolder folder;
+  Character fewer = *loaded.character;
+  fewer.meshes[0].morph_targets.clear();
+  EXPECT_EQ(save_glb(folder.path() / "fewer.glb", fewer, loaded).code(),
+            StatusCode::invalid_argument);
+  Character in_part = more;
+  Clip clip;
+  clip.name = "part";
+  clip.duration = 1;
+  clip.channels.push_back(
+      {ChannelTarget::morph_weights, first, 1, Interpolation::linear, {0.0f}, {0.0f}});
+  in_part.clips.push_back(clip);
+  EXPECT_EQ(save_glb(folder.path() / "part.glb", in_part, loaded).code(),
+            StatusCode::invalid_argument);
+}
+
 /// A white pixel.
 std::string one_pixel_png() {
   constexpr unsigned char kBytes[] = {

@@ -230,29 +230,17 @@ TEST_F(TearCommand, an_output_that_cannot_be_written_exits_with_3) {
 }
 
 TEST_F(TearCommand, tear_draws_a_picture_of_the_result) {
-  if (std::system("command -v f3d xvfb-run >/dev/null 2>&1") != 0)
-    GTEST_SKIP() << "needs f3d and xvfb-run";
   for (const char* const operations : {kOneTear, kAll}) {
     const CommandResult result =
         run_sunder({"tear", model(), "--ops", write("drawn.json", operations), "-o",
                     path("drawn.glb"), "--picture", path("drawn.png"), "-q"});
-    EXPECT_LE(result.exit_code, 1) << result.err;
-    EXPECT_THAT(result.err, IsEmpty());
+    EXPECT_EQ(result.exit_code, operations == kOneTear ? 0 : 1) << result.err;
     EXPECT_GT(std::filesystem::file_size(path("drawn.png")), 10'000u);
     std::filesystem::remove(path("drawn.png"));
   }
 }
 
 TEST_F(TearCommand, a_picture_that_cannot_be_drawn_is_a_finding) {
-  const CommandResult no_renderer =
-      run_sunder({"tear", model(), "--ops", write("a.json", kOneTear), "-o", path("undrawn.glb"),
-                  "--picture", path("undrawn.png"), "--report", "-"},
-                 {{"PATH", "/nonexistent"}});
-  EXPECT_EQ(no_renderer.exit_code, 1);
-  EXPECT_THAT(no_renderer.err, HasSubstr("f3d"));
-  EXPECT_TRUE(exists("undrawn.glb"));
-  EXPECT_EQ(json::parse(no_renderer.out)["operations"].size(), 1u);
-
   const std::string none = write("none.json", R"({"sunder_operations": 1, "operations": []})");
   const CommandResult nothing = run_sunder({"tear", model(), "--ops", none, "-o",
                                             path("undrawn.glb"), "--picture", path("undrawn.png")});

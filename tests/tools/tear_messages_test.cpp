@@ -1,5 +1,6 @@
 // What `sunder tear` says: the lines of operations, misses and their causes, warnings, refusals.
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <regex>
@@ -55,11 +56,17 @@ TEST_F(TearMessages, one_line_per_operation_says_what_and_where) {
   EXPECT_THAT(result.err, ContainsRegex("/operations/7: undo: undone, "));
 }
 
-TEST_F(TearMessages, quiet_says_nothing_but_errors) {
+TEST_F(TearMessages, quiet_says_nothing_but_errors_and_misses) {
+  const CommandResult one = tear(write("one.json", kOneTear), {"-q"});
+  EXPECT_EQ(one.exit_code, 0);
+  EXPECT_THAT(one.out, IsEmpty());
+  EXPECT_THAT(one.err, IsEmpty());
   const CommandResult result = tear(write("all.json", kAll), {"-q"});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.out, IsEmpty());
-  EXPECT_THAT(result.err, IsEmpty());
+  EXPECT_THAT(result.err, AllOf(HasSubstr("/operations/9: cut missed"),
+                                HasSubstr("/operations/10: drill missed")));
+  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 2);
   const CommandResult failed =
       tear(changed("q.json", {{"pose", {{"clip", "Fly"}, {"time", 0}}}}), {"-q"});
   EXPECT_EQ(failed.exit_code, 2);

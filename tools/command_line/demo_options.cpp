@@ -12,10 +12,8 @@ CLI::App* add_demo(CLI::App& app, DemoRequest& request) {
                    "Folder for the pictures, the torn model, the operation log and the report")
       ->type_name("FOLDER")
       ->capture_default_str();
-  verb->footer(
-      "The pictures need f3d and Xvfb. Without these everything else is still written, and the "
-      "exit code is 1.\n\n"
-      "Example: sunder demo fox.glb -o fox_demo");
+  verb->add_flag("--no-pictures", request.no_pictures, "Writes everything except pictures.");
+  verb->footer("Example: sunder demo fox.glb -o fox_demo");
   return verb;
 }
 

@@ -69,7 +69,7 @@ void add_report_options(CLI::App& verb, TearRequest& request) {
       ->needs(report);
   CLI::Option* const quiet = verb.add_flag_callback(
       "-q,--quiet", [&request] { request.verbosity = Verbosity::quiet; },
-      "Print errors only: no operations, warnings and summary");
+      "Print errors and misses only: no other operations, warnings and summary");
   verb.add_flag_callback(
           "-v,--verbose", [&request] { request.verbosity = Verbosity::verbose; },
           "Print details of operations, and durations")
@@ -96,6 +96,23 @@ std::uint32_t maximum_influences(const std::string& name) {
   for (const std::uint32_t maximum : {4u, 8u, kAllInfluences})
     if (name == influences_name(maximum)) return maximum;
   return 0;
+}
+
+/// A flag that may have a value after "=", so that it takes no other argument for it.
+void add_open(CLI::App& verb, TearRequest& request) {
+  const auto form = std::make_shared<std::string>();
+  CLI::Option* const flag =
+      verb.add_flag("--open{morph}", *form,
+                    "Write lips that gape, as a morph target and an animation of its weight from "
+                    "the moment of the tear; --open=baked: in the positions themselves");
+  flag->check([form](const std::string& value) {
+    const bool is_known = value == "morph" || value == "baked" || value == "true";
+    return is_known ? std::string() : "expected --open, --open=morph or --open=baked";
+  });
+  verb.parse_complete_callback([&verb, form, &request] {
+    if (verb.count("--open") > 0)
+      request.open = *form == "baked" ? OpenLips::baked : OpenLips::morph;
+  });
 }
 
 }  // namespace
@@ -128,9 +145,9 @@ CLI::App* add_tear(CLI::App& app, TearRequest& request) {
   add_weight_policy(*verb, request);
   add_maximum_error(*verb, request.maximum_error, &request.robot_limits);
   add_report_options(*verb, request);
+  add_open(*verb, request);
   verb->add_option("--picture", request.picture,
-                   "File for a picture (PNG) of the torn model, with lips and pieces pulled apart; "
-                   "needs f3d and Xvfb")
+                   "File for a picture (PNG) of the torn model, with lips and pieces pulled apart")
       ->type_name("FILE");
   add_further_files(*verb, request);
   verb->add_flag("--dry-run", request.dry_run,

@@ -16,7 +16,6 @@
 #include "tools/messages/text_file.h"
 #include "tools/model/model_json.h"
 #include "tools/model/posed_model.h"
-#include "tools/picture/picture.h"
 #include "tools/tear/report.h"
 #include "tools/tear/weight_report.h"
 #include "tools/verbs.h"
@@ -74,9 +73,8 @@ Result<TornDemo> tear_mid_clip(const std::shared_ptr<const Character>& character
   if (!pose) return pose.error();
   const Result<std::vector<DeformedMesh>> posed = pose_model(*character, *pose);
   if (!posed) return posed.error();
-  const Bounds bounds = bounds_of(*character, *posed);
-  const ViewFrame frame = choose_view(bounds);
-  const TearOperation tear{*pose, choose_stroke(*character, *posed, frame), {}, {}};
+  const SeenStroke seen = choose_stroke(*character, *posed);
+  const TearOperation tear{*pose, seen.stroke, {}, {}};
   if (tear.stroke.empty())
     return Status::failure(StatusCode::empty_input, kNone,
                            "no visible surface is large enough for a stroke");
@@ -91,7 +89,7 @@ Result<TornDemo> tear_mid_clip(const std::shared_ptr<const Character>& character
   const Result<TopologyCounts> after = count_topology(model->character());
   if (!after) return after.error();
   outcome->topology = TopologyChange{*before, *after};
-  return TornDemo{DemoTear{character, std::move(*model), tear, frame, bounds}, *outcome};
+  return TornDemo{DemoTear{character, std::move(*model), tear, seen.frame}, *outcome};
 }
 
 /// Writes the models, the report and the operation log.
@@ -162,11 +160,10 @@ ExitCode run_demo(const DemoRequest& request) {
     return ExitCode::findings;
   }
 
-  if (!can_draw()) {
-    std::fprintf(stderr, "sunder: no pictures: %s\n", kNoRenderer);
-    return ExitCode::findings;
-  }
-  if (const Status status = draw_demo(demo->tear, request.folder, 2, progress); !status) {
+  if (request.no_pictures) return ExitCode::ok;
+  const Result<ModelLooks> looks = ModelLooks::create(model->loaded.source.get());
+  if (!looks) return complain(place, looks.error(), ExitCode::internal_error);
+  if (const Status status = draw_demo(demo->tear, *looks, request.folder, 2, progress); !status) {
     (void)complain(request.folder.string() + ": pictures", status, ExitCode::findings);
     return ExitCode::findings;
   }

@@ -4,118 +4,151 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <numbers>
-#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "tools/picture/open_lips.h"
-#include "tools/picture/picture.h"
-#include "tools/picture/rims.h"
+#include "tools/demo/demo_camera.h"
+#include "tools/demo/torn_actor.h"
+#include "tools/render/trace.h"
 
 namespace sunder::tools {
 namespace {
 
-/// The time of a picture in the clip, and the minimum number of steps for the tissue to open since
-/// the previous picture.
+constexpr PictureSize kStill, kMotion = {480, 360};
+constexpr double kFrame = 0.08;  ///< Seconds per picture of the motion.
+constexpr int kFramesBefore = 6, kFramesOfTear = 6, kFrames = 32;
+constexpr double kCloseness = 0.35;   ///< Of the pictures of the tear, as aim() has it.
+constexpr double kSameEnds = 0.02;    ///< A clip whose ends differ less, by the diagonal, runs on.
+constexpr float kFloorRadius = 1.5f;  ///< In diagonals.
+
+/// The time of a picture in the clip, how near it is, and the time since the picture before.
 struct Shot {
   const char* name;
-  double clip_fraction;
-  bool is_torn;
-  int steps;
+  double clip_fraction, closeness, seconds;
 };
-constexpr Shot kShots[kDemoPictures] = {{"before", kTearFraction, false, 0},
-                                        {"torn", kTearFraction, true, 4},
-                                        {"later_1", 0.65, true, 30},
-                                        {"later_2", 0.95, true, 30}};
-constexpr int kPixels = 900;
-constexpr double kMostSteps = 600;    ///< Between two pictures, because a clip may have any length.
-constexpr double kThickness = 0.006;  ///< Thickness of the flesh, as a fraction of the diagonal.
+constexpr Shot kShots[] = {{"torn", kTearFraction, kCloseness, 0},
+                           {"wound", kTearFraction, 1, 0},
+                           {"later_1", 0.65, 0, 0.5},
+                           {"later_2", 0.95, kCloseness, 0.5}};
 
-Result<std::vector<DeformedMesh>> posed_at(const Character& character, double fraction) {
-  const Result<ModelPose> pose = make_pose(character, pose_at(character, fraction));
+Result<std::vector<DeformedMesh>> posed_at(const Character& character, const PoseSpec& spec) {
+  const Result<ModelPose> pose = make_pose(character, spec);
   if (!pose) return pose.error();
   return pose_model(character, *pose);
 }
 
-/// The middle of the rims, and the direction of the surface there.
-struct Wound {
-  Vec3d middle, outwards;
+/// Puts a floor below a scene.
+void add_floor(const std::vector<Vec3d>& places, RenderScene& scene) {
+  Bounds bounds;
+  for (const Vec3d& place : places) {
+    bounds.least = bounds.least.cwiseMin(place);
+    bounds.greatest = bounds.greatest.cwiseMax(place);
+  }
+  scene.floor = static_cast<float>(bounds.least.y() - 1e-3 * bounds.size().norm());
+  scene.floor_radius = kFloorRadius * static_cast<float>(bounds.size().norm());
+}
+
+/// Poses of the motion: the clip around the moment of the tear.
+class Motion {
+ public:
+  [[nodiscard]] static Result<Motion> create(const Character& character) {
+    Motion motion(character);
+    if (character.clips.empty()) return motion;
+    const auto begin = posed_at(character, pose_at(character, 0));
+    if (!begin) return begin.error();
+    const auto end = posed_at(character, pose_at(character, 1));
+    if (!end) return end.error();
+    double farthest = 0;
+    for (std::size_t m = 0; m < begin->size(); ++m)
+      for (std::size_t v = 0; v < (*begin)[m].positions.size(); ++v)
+        farthest = std::max(
+            farthest,
+            static_cast<double>(((*begin)[m].positions[v] - (*end)[m].positions[v]).norm()));
+    motion.runs_on_ = farthest < kSameEnds * bounds_of(character, *begin).size().norm();
+    return motion;
+  }
+
+  [[nodiscard]] PoseSpec pose(int frame) const {
+    if (character_.clips.empty()) return RestPose{};
+    const auto duration = static_cast<double>(character_.clips[0].duration);
+    double time = kTearFraction * duration + (frame - kFramesBefore) * kFrame;
+    if (runs_on_ && duration > 0) time -= duration * std::floor(time / duration);
+    return ClipPose{std::uint32_t{0}, std::clamp(time, 0.0, duration)};
+  }
+
+ private:
+  explicit Motion(const Character& character) : character_(character) {}
+  const Character& character_;
+  bool runs_on_ = false;
 };
 
-Wound wound_of(const std::vector<RimEdge>& rims, const std::vector<DeformedMesh>& posed) {
-  Wound wound{Vec3d::Zero(), Vec3d::Zero()};
-  for (const RimEdge& edge : rims) {
-    wound.middle +=
-        posed[edge.mesh].positions[edge.a].cast<double>() / static_cast<double>(rims.size());
-    wound.outwards += posed[edge.mesh].normals[edge.a].cast<double>();
+/// Tears as far as a picture of the motion shows.
+Status tear_in_motion(int frame, TornActor& actor, std::size_t& next) {
+  const int step = frame - kFramesBefore + 1;
+  if (step < 1) return {};
+  const std::size_t wanted = std::min(
+      actor.blade_count(),
+      (actor.blade_count() * static_cast<std::size_t>(step) + kFramesOfTear - 1) / kFramesOfTear);
+  for (; next < wanted; ++next)
+    if (const Status status = actor.tear_to(next); !status) return status;
+  return {};
+}
+
+Status draw_motion(const DemoTear& tear, const ModelLooks& looks, const std::filesystem::path& png,
+                   TornActor& actor) {
+  const Result<Motion> motion = Motion::create(*tear.source);
+  if (!motion) return motion.error();
+  std::vector<Vec3d> places, wound;
+  for (int frame = 0; frame < kFrames; frame += 2) {
+    const auto posed = posed_at(*tear.source, motion->pose(frame));
+    if (!posed) return posed.error();
+    for (const Vec3d& place : places_of(*tear.source, *posed)) places.push_back(place);
   }
-  wound.outwards.normalize();
-  return wound;
-}
-
-/// The view at the moment of the tear. It is kept while the wound is visible; if the wound turns
-/// away, the eye follows it.
-ViewFrame follow(const ViewFrame& frame, const Wound& then, const Wound& now) {
-  if (now.outwards.dot(frame.towards_eye) > 0.45) return frame;
-  ViewFrame turned;
-  turned.towards_eye = Quatd::FromTwoVectors(then.outwards, now.outwards) * frame.towards_eye;
-  turned.right = Vec3d::UnitY().cross(turned.towards_eye);
-  if (turned.right.norm() < 1e-3) return frame;
-  turned.right.normalize();
-  turned.up = turned.towards_eye.cross(turned.right);
-  return turned;
-}
-
-/// Shows the whole model, with the wound near the middle.
-Camera aim(const ViewFrame& frame, const Wound& wound, const Bounds& bounds) {
-  Camera camera;
-  camera.focal_point = 0.3 * wound.middle + 0.7 * bounds.centre();
-  camera.up = frame.up;
-  const double slope = std::tan(camera.view_angle_degrees / 2 * std::numbers::pi / 180);
-  double distance = 0;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vec3d half_size = bounds.size() / 2;
-    const Vec3d signs((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1,
-                      (corner & 4) != 0 ? 1 : -1);
-    const Vec3d offset = bounds.centre() + signs.cwiseProduct(half_size) - camera.focal_point;
-    const double beside =
-        std::max(std::abs(offset.dot(frame.right)), std::abs(offset.dot(frame.up)));
-    distance = std::max(distance, beside / slope + offset.dot(frame.towards_eye));
+  const Camera camera = aim(tear.frame, places, {}, 0);
+  std::vector<Picture> pictures;
+  std::size_t next = 0;
+  for (int frame = 0; frame < kFrames; ++frame) {
+    if (const Status status = actor.play(motion->pose(frame), kFrame); !status) return status;
+    if (const Status status = tear_in_motion(frame, actor, next); !status) return status;
+    if (const Status status = actor.play(motion->pose(frame), 0); !status) return status;
+    const Result<TornActor::Posture> posture = actor.posture();
+    if (!posture) return posture.error();
+    RenderScene scene = actor.scene(*posture, looks);
+    add_floor(places, scene);
+    pictures.push_back(trace(scene, camera, kMotion));
   }
-  camera.eye = camera.focal_point + 1.02 * distance * frame.towards_eye;
-  return camera;
+  return write_animated_png(png, pictures, static_cast<int>(1000 * kFrame));
 }
 
-/// Plays the clip from one moment to another while the lips open.
-Status play_on(CharacterInstance& instance, double from, double to, int least_steps) {
-  const Character& torn = instance.character();
-  const double seconds =
-      torn.clips.empty() ? 0.0 : (to - from) * static_cast<double>(torn.clips[0].duration);
-  const int steps = static_cast<int>(
-      std::clamp(std::ceil(60 * seconds), static_cast<double>(least_steps), kMostSteps));
-  for (int i = 1; i <= steps; ++i) {
-    const Result<ModelPose> pose = make_pose(torn, pose_at(torn, from + (to - from) * i / steps));
-    if (!pose) return pose.error();
-    if (const Status status = instance.advance(*pose, kPictureStep); !status) return status;
+/// One picture of the torn model, and one of the same moment before the tear if that is wanted.
+Status draw_shot(const Shot& shot, const DemoTear& tear, const ModelLooks& looks,
+                 const std::filesystem::path& folder, ViewFrame& frame, TornActor& actor) {
+  const PoseSpec pose = pose_at(*tear.source, shot.clip_fraction);
+  const Status status = shot.seconds > 0 ? actor.play(pose, shot.seconds) : actor.settle(pose);
+  if (!status) return status;
+  const Result<TornActor::Posture> posture = actor.posture();
+  if (!posture) return posture.error();
+  std::vector<Vec3d> wound, outwards;
+  if (posture->wound) {
+    wound = posture->wound->places(posture->open);
+    outwards = posture->wound->outwards(posture->closed);
+    frame = choose_wound_view(actor.character(), posture->open, wound, outwards, frame);
   }
-  return instance.draw();
-}
-
-/// The torn model at a moment of the clip: its surface, displaced by the tissue, and walls of
-/// flesh.
-Result<Character> still_at(double clip_fraction, const DemoTear& tear,
-                           const std::vector<RimEdge>& rims, const ViewFrame& frame,
-                           CharacterInstance& instance) {
-  const Result<std::vector<DeformedMesh>> closed = posed_at(tear.model.character(), clip_fraction);
-  if (!closed) return closed.error();
-  const Result<std::vector<DeformedMesh>> untorn = posed_at(*tear.source, clip_fraction);
+  const std::vector<Vec3d> places = places_of(actor.character(), posture->open);
+  const Camera camera = aim(frame, places, wound, shot.closeness);
+  RenderScene scene = actor.scene(*posture, looks);
+  add_floor(places, scene);
+  const std::filesystem::path png = folder / (std::string(shot.name) + ".png");
+  if (const Status written = write_png(png, trace(scene, camera, kStill)); !written) return written;
+  if (&shot != &kShots[0]) return {};
+  const auto untorn = posed_at(*tear.source, pose);
   if (!untorn) return untorn.error();
-  std::vector<DeformedMesh> open = *closed;
-  displace(instance, open);
-  return make_torn_still(tear.model, open, *closed, *untorn, rims, frame,
-                         kThickness * tear.bounds.size().norm());
+  RenderScene before = looks.begin_scene();
+  for (std::size_t m = 0; m < untorn->size(); ++m)
+    looks.add_mesh(tear.source->meshes[m], (*untorn)[m], {}, before);
+  add_floor(places, before);
+  return write_png(folder / "before.png", trace(before, camera, kStill));
 }
 
 }  // namespace
@@ -125,38 +158,18 @@ PoseSpec pose_at(const Character& character, double fraction) {
   return ClipPose{std::uint32_t{0}, fraction * static_cast<double>(character.clips[0].duration)};
 }
 
-Status draw_demo(const DemoTear& tear, const std::filesystem::path& folder, std::size_t first_step,
-                 ProgressBar& progress) {
-  const Character& torn = tear.model.character();
-  Result<CharacterInstance> instance = make_gaping_instance(tear.source);
-  if (!instance) return instance.error();
-  if (const auto report = instance->apply(tear.operation); !report) return report.error();
-  const Result<std::vector<DeformedMesh>> at_tear = posed_at(torn, kTearFraction);
-  if (!at_tear) return at_tear.error();
-  const std::vector<RimEdge> rims = find_rims(tear.model);
-  const Wound fresh = wound_of(rims, *at_tear);
-  for (std::size_t i = 0; i < kDemoPictures; ++i) {
-    const Shot& shot = kShots[i];
-    progress.begin_step(first_step + i, std::string("drawing ") + shot.name);
-    const Result<std::vector<DeformedMesh>> closed = posed_at(torn, shot.clip_fraction);
-    if (!closed) return closed.error();
-    const Wound wound = wound_of(rims, *closed);
-    const ViewFrame frame = follow(tear.frame, fresh, wound);
-    const Camera camera = aim(frame, wound, bounds_of(torn, *closed));
-    Result<Character> still = Character();
-    if (shot.is_torn) {
-      const double before = kShots[i - 1].clip_fraction;
-      if (const Status status = play_on(*instance, before, shot.clip_fraction, shot.steps); !status)
-        return status;
-      still = still_at(shot.clip_fraction, tear, rims, frame, *instance);
-    } else {
-      const Result<std::vector<DeformedMesh>> untorn = posed_at(*tear.source, shot.clip_fraction);
-      if (!untorn) return untorn.error();
-      still = make_still(*tear.source, *untorn);
-    }
-    if (!still) return still.error();
-    const std::filesystem::path png = folder / (std::string(shot.name) + ".png");
-    if (const Status status = draw(*still, camera, kPixels, kPixels, png); !status) return status;
+Status draw_demo(const DemoTear& tear, const ModelLooks& looks, const std::filesystem::path& folder,
+                 std::size_t first_step, ProgressBar& progress) {
+  Result<TornActor> actor = TornActor::create(tear.source, tear.operation);
+  if (!actor) return actor.error();
+  progress.begin_step(first_step++, "drawing motion");
+  if (const Status status = draw_motion(tear, looks, folder / "motion.png", *actor); !status)
+    return status;
+  ViewFrame frame = tear.frame;
+  for (const Shot& shot : kShots) {
+    progress.begin_step(first_step++, std::string("drawing ") + shot.name);
+    if (const Status status = draw_shot(shot, tear, looks, folder, frame, *actor); !status)
+      return status;
   }
   return {};
 }

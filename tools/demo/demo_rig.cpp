@@ -205,6 +205,17 @@ Vec3d swell_at(const Vec3d& position, const Vec3d& normal) {
   return 0.06 * std::exp(-height * height - std::pow(off_axis, 6)) * normal;
 }
 
+// ---- Colours, linear RGBA
+
+const Vec4f kClayColor(0.50f, 0.17f, 0.075f, 1), kSoilColor(0.055f, 0.035f, 0.022f, 1);
+
+/// Green, lighter towards the tips; a pink flower.
+Vec4f color_at(const Vec3d& position) {
+  if (is_flower(position)) return {0.80f, 0.13f, 0.33f, 1};
+  const float young = static_cast<float>(std::clamp((position.y() - 0.4) / 1.4, 0.0, 1.0));
+  return {0.06f + 0.07f * young, 0.20f + 0.16f * young, 0.06f + 0.03f * young, 1};
+}
+
 Mesh make_flesh(Index skin) {
   constexpr double kCell = 0.0265;
   const PointSurface surface =
@@ -215,6 +226,7 @@ Mesh make_flesh(Index skin) {
   mesh.skin = skin;
   mesh.submeshes = {{"Flesh", kNone}, {"Flower", kNone}};
   mesh.uv_sets.resize(1);
+  mesh.color_sets.resize(1);
   mesh.morph_targets.push_back({"Swell", {}, {}, {}});
 
   // One vertex per point and texture coordinate; copies along a seam agree in everything else.
@@ -233,6 +245,7 @@ Mesh make_flesh(Index skin) {
       mesh.positions.push_back(corners[i].cast<float>());
       mesh.normals.push_back(normal.cast<float>().normalized());
       mesh.uv_sets[0].push_back(uvs[i]);
+      mesh.color_sets[0].push_back(color_at(corners[i]));
       mesh.weights.append(influences_at(corners[i]));
       mesh.morph_targets[0].position_deltas.push_back(swell_at(corners[i], normal).cast<float>());
     }
@@ -264,6 +277,7 @@ Mesh make_pot(Index skin) {
   mesh.skin = skin;
   mesh.submeshes = {{"Clay", kNone}, {"Soil", kNone}};
   mesh.uv_sets.resize(1);
+  mesh.color_sets.resize(1);
   for (std::size_t band = 0; band + 1 < kOutline.size(); ++band) {
     const Index first = mesh.vertex_count();
     const double rise = kOutline[band + 1][1] - kOutline[band][1],
@@ -280,6 +294,7 @@ Mesh make_pot(Index skin) {
             Vec3d(rise * std::sin(angle), -run, rise * std::cos(angle)).cast<float>().normalized());
         mesh.uv_sets[0].emplace_back(static_cast<float>(i) / kSegments,
                                      1.0f - static_cast<float>(end) / kOutline.size());
+        mesh.color_sets[0].push_back(band + 2 == kOutline.size() ? kSoilColor : kClayColor);
         const Influence all_of_root{0, 1.0f};
         mesh.weights.append({&all_of_root, 1});
       }

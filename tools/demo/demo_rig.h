@@ -8,8 +8,8 @@ namespace sunder::tools {
 /// Deterministic.
 ///
 /// Mesh "Cactus": one closed manifold surface of a few thousand points, two submeshes, a UV set
-/// with seams, up to six influences per vertex, the morph target "Swell". Mesh "Pot": rigid, with
-/// hard edges. Clip "Sway": 2 s, a loop. y is up, 1.8 m high, z to the front.
+/// with seams, colours, up to six influences per vertex, the morph target "Swell". Mesh "Pot":
+/// rigid, with hard edges. Clip "Sway": 2 s, a loop. y is up, 1.8 m high, z to the front.
 Character make_cactus();
 
 }  // namespace sunder::tools

@@ -9,6 +9,7 @@ namespace {
 
 constexpr int kImageSize = 360;
 constexpr int kBlades = 13;
+constexpr double kMuchBetter = 1.4;  ///< By this factor of the score.
 
 /// A straight run of pixels of one mesh without a jump in depth.
 struct Run {
@@ -88,11 +89,11 @@ std::vector<Vec2d> places_along(const DepthImage& image, const Run& run, double 
 
 }  // namespace
 
-Stroke choose_stroke(const Character& character, const std::vector<DeformedMesh>& posed,
-                     const ViewFrame& frame) {
+SeenStroke choose_stroke(const Character& character, const std::vector<DeformedMesh>& posed,
+                         const ViewFrame& frame) {
   const DepthImage image(character, posed, frame, kImageSize);
   const Run run = longest_run(image);
-  if ((run.end - run.begin).norm() < 4) return {};
+  if ((run.end - run.begin).norm() < 4) return {{}, frame, 0};
   std::vector<Vec2d> places;
   for (const double swing : {0.07, 0.03, 0.0}) {
     places = places_along(image, run, swing);
@@ -109,7 +110,16 @@ Stroke choose_stroke(const Character& character, const std::vector<DeformedMesh>
     stroke.push_back(
         {hit + clearance * frame.towards_eye, hit - 0.06 * diagonal * frame.towards_eye});
   }
-  return stroke;
+  return {stroke, frame, run.score * image.pixel_size()};
+}
+
+SeenStroke choose_stroke(const Character& character, const std::vector<DeformedMesh>& posed) {
+  SeenStroke best = choose_stroke(character, posed, choose_view(bounds_of(character, posed)));
+  for (const Vec3d& side : {Vec3d(0.3, 0.12, 1), Vec3d(1, 0.12, 0.3), Vec3d(0.35, 1, 0.75)}) {
+    const SeenStroke other = choose_stroke(character, posed, view_from(side));
+    if (!other.stroke.empty() && other.score > kMuchBetter * best.score) best = other;
+  }
+  return best;
 }
 
 }  // namespace sunder::tools

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <sunder/operation/operation.h>
 #include <sunder/scene/character_instance.h>
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "tools/model/posed_model.h"
@@ -11,14 +13,48 @@ namespace sunder::tools {
 
 constexpr double kPictureStep = 1.0 / 60;  ///< Seconds per step of the tissue in pictures.
 
-/// A character of soft tissue under an even tension, so that the lips of its tears open.
-[[nodiscard]] Result<CharacterInstance> make_gaping_instance(
-    std::shared_ptr<const Character> character);
+/// The lips that one operation parted.
+struct Wound {
+  std::vector<LipPair> lips;  ///< Points.
+  double length = 0;          ///< Metres, posed; 0 of a cut, whose lips may gape as they will.
+};
+
+/// A torn character of soft tissue under an even tension that pulls its lips apart. The tension is
+/// chosen such that the widest wound gapes by a share of its length, or less where the body is
+/// thin.
+struct GapingModel {
+  CharacterInstance instance;       ///< Closed yet: no time has passed.
+  std::vector<Wound> wounds;        ///< Those with lips.
+  std::vector<TearReport> reports;  ///< One per operation.
+  Tension tension;
+};
+
+/// @param history  operations that are valid for the character.
+/// @param pose     in which the tension is chosen.
+/// @return the first failure of an operation.
+[[nodiscard]] Result<GapingModel> make_gaping_model(std::shared_ptr<const Character> character,
+                                                    std::span<const Operation> history,
+                                                    const ModelPose& pose);
+
+/// The lips that the changes by one operation list.
+[[nodiscard]] Wound wound_of(std::span<const ChangeRecord> changes);
 
 /// Steps the tissue in one pose until nothing moves, or for three seconds.
 [[nodiscard]] Status open_lips(CharacterInstance& instance, const ModelPose& pose);
 
-/// Moves posed vertices by the displacements of the last advance().
+/// The greatest distance between two points of a wound that were one.
+[[nodiscard]] double widest_gap(const CharacterInstance& instance, const Wound& wound);
+
+/// The vertices of the last draw(), in model space.
+[[nodiscard]] std::vector<DeformedMesh> drawn(CharacterInstance& instance);
+
+/// Moves posed vertices by the displacements of the last draw().
 void displace(CharacterInstance& instance, std::vector<DeformedMesh>& posed);
+
+/// Narrows wounds towards their ends like ellipses, where particles leave them blunt: moves points
+/// of the two lips towards each other.
+/// @param closed, open  in one pose, of the instance.
+void taper_wounds(const CharacterInstance& instance, std::span<const Wound> wounds,
+                  const std::vector<DeformedMesh>& closed, std::vector<DeformedMesh>& open);
 
 }  // namespace sunder::tools

@@ -1,20 +1,12 @@
 #pragma once
 
-#include <sunder/core/math.h>
 #include <sunder/core/status.h>
 
 #include <filesystem>
 
+#include "tools/render/camera.h"
+
 namespace sunder::tools {
-
-struct Camera {
-  Vec3d eye, focal_point, up;
-  double view_angle_degrees = 30;  ///< Vertical.
-};
-
-struct PictureSize {
-  int width = 1280, height = 960;  ///< Pixels.
-};
 
 /// Whether f3d and xvfb-run, which draw the pictures, are installed.
 [[nodiscard]] bool can_draw();

@@ -11,18 +11,19 @@
 #include <utility>
 
 #include "tools/demo/demo_rig.h"
-#include "tools/picture/rims.h"
+#include "tools/picture/model_looks.h"
+#include "tools/picture/open_lips.h"
+#include "tools/picture/torn_scene.h"
+#include "tools/render/trace.h"
 
 namespace sunder::tools {
 namespace {
 
-constexpr int kWidth = 480, kHeight = 360;
+constexpr int kWidth = 640, kHeight = 480;
 constexpr double kStep = 1.0 / 60;
 constexpr int kMostSteps = 600;
 constexpr double kClipFraction = 0.40;
 constexpr double kThickness = 0.006;  ///< Thickness of the flesh, as a fraction of the diagonal.
-const Vec4f kSurface(1.0f, 0.98f, 0.94f,
-                     1.0f);  // Linear RGBA, as in the pictures of docs/tear.md.
 
 void check(const Status& status) {
   if (status) return;
@@ -146,17 +147,18 @@ std::vector<DeformedMesh> SoftScene::displaced() {
 
 void SoftScene::draw(const std::string& png, const ViewFrame& frame, const Vec3d& centre,
                      double radius) {
-  const std::vector<DeformedMesh> untorn = check(pose_model(*source, pose));
-  const std::vector<RimEdge> rims = find_rims(*instance.model());
-  Character still = make_torn_still(*instance.model(), displaced(), posed(), untorn, rims, frame,
-                                    kThickness * diagonal_);
-  paint(still, kSurface);
+  std::vector<Wound> wounds;
+  for (const ChangeRecord& change : changes) wounds.push_back(wound_of(std::span(&change, 1)));
+  const ModelLooks looks = check(ModelLooks::create(nullptr));
+  const std::vector<DeformedMesh> closed = posed(), open = displaced();
+  const RenderScene scene =
+      make_torn_scene({*instance.model(), closed, open, wounds}, looks, kThickness * diagonal_);
   Camera camera;
   camera.focal_point = centre;
   camera.up = frame.up;
   camera.eye = centre + radius / std::tan(camera.view_angle_degrees / 2 * std::numbers::pi / 180) *
                             frame.towards_eye;
-  check(tools::draw(still, camera, kWidth, kHeight, png));
+  check(write_png(png, trace(scene, camera, {kWidth, kHeight})));
 }
 
 void SoftScene::draw_particles(const std::string& png) const {
@@ -172,12 +174,19 @@ void SoftScene::draw_particles(const std::string& png) const {
       color[3] = 1.0f;
       colors[m].push_back(color);
     }
+  const ModelLooks looks = check(ModelLooks::create(nullptr));
+  RenderScene scene = looks.begin_scene();
+  for (std::uint32_t m = 0; m < bones.size(); ++m) {
+    Mesh mesh = source->meshes[m];
+    mesh.color_sets.assign(1, colors[m]);
+    looks.add_mesh(mesh, bones[m], {}, scene);
+  }
   const ViewFrame frame = look_from(17, 7);
   Camera camera;
   camera.up = frame.up;
   camera.focal_point = bounds_of(*source, bones).centre();
   camera.eye = camera.focal_point + 1.75 * diagonal_ * frame.towards_eye;
-  check(tools::draw(make_still(*source, bones, colors), camera, kWidth, kHeight, png));
+  check(write_png(png, trace(scene, camera, {kWidth, kHeight})));
 }
 
 ViewFrame look_from(double side, double above) {

@@ -11,9 +11,11 @@
 
 #include "tools/model/history.h"
 #include "tools/model/posed_model.h"
-#include "tools/picture/lights.h"
 #include "tools/picture/open_lips.h"
-#include "tools/picture/picture.h"
+#include "tools/picture/rims.h"
+#include "tools/picture/torn_scene.h"
+#include "tools/picture/view.h"
+#include "tools/render/trace.h"
 
 namespace sunder::tools {
 namespace {
@@ -118,40 +120,10 @@ Camera aim(const ViewFrame& frame, const std::vector<Vec3d>& wound, const Bounds
   return camera;
 }
 
-/// The vertices of a submesh, each once, in the order of its triangles.
-std::vector<Index> vertices_of(const Mesh& mesh, Index submesh) {
-  std::vector<Index> vertices;
-  std::vector<bool> is_taken(mesh.vertex_count(), false);
-  for (Index t = 0; t < mesh.triangles.size(); ++t) {
-    if (mesh.triangle_submesh[t] != submesh) continue;
-    for (const Index vertex : mesh.triangles[t]) {
-      if (!is_taken[vertex]) vertices.push_back(vertex);
-      is_taken[vertex] = true;
-    }
-  }
-  return vertices;
-}
-
-template <class Value>
-std::vector<Value> values_at(const std::vector<Value>& values, const std::vector<Index>& vertices) {
-  std::vector<Value> of_vertices;
-  for (const Index vertex : vertices) of_vertices.push_back(values[vertex]);
-  return of_vertices;
-}
-
-/// Gives the outside of a still scene the materials and vertex attributes of the torn model; its
-/// parts are in the order of meshes and submeshes.
-void add_materials(const TornModel& torn, Character& still) {
-  auto outside = still.meshes.begin();
-  for (const Mesh& mesh : torn.character().meshes)
-    for (Index submesh = 0; submesh < mesh.submeshes.size(); ++submesh, ++outside) {
-      if (!outside->color_sets.empty()) continue;  // a wall or cap
-      const std::vector<Index> vertices = vertices_of(mesh, submesh);
-      outside->submeshes[0].material = mesh.submeshes[submesh].material;
-      for (const auto& set : mesh.uv_sets) outside->uv_sets.push_back(values_at(set, vertices));
-      for (const auto& set : mesh.color_sets)
-        outside->color_sets.push_back(values_at(set, vertices));
-    }
+/// Adds a robot that stands beside the model.
+void add_robot(const std::vector<Mesh>& surfaces, const ModelLooks& looks, RenderScene& scene) {
+  for (const Mesh& surface : surfaces)
+    looks.add_mesh(surface, {surface.positions, surface.normals, {}}, {}, scene);
 }
 
 /// Moves the pieces of a cut away from its plane, to both sides.
@@ -178,21 +150,18 @@ void move_apart(const Character& character, const PlaneCut& cut,
 
 Status draw_torn(const LoadedCharacter& loaded, std::span<const Operation> history,
                  const std::filesystem::path& png, const PosedRobot* robot) {
-  Result<CharacterInstance> instance = make_gaping_instance(loaded.character);
-  if (!instance) return instance.error();
-  const TornModel& torn = *instance->model();
   const Operation& newest = newest_of(history);
-  const Result<ModelPose> pose = make_pose(torn.source(), last_pose_of(newest));
+  const Result<ModelPose> pose = make_pose(*loaded.character, last_pose_of(newest));
   if (!pose) return pose.error();
-  const Result<std::vector<DeformedMesh>> untorn = pose_model(torn.source(), *pose);
-  if (!untorn) return untorn.error();
+  Result<GapingModel> model = make_gaping_model(loaded.character, history, *pose);
+  if (!model) return model.error();
+  CharacterInstance& instance = model->instance;
+  const TornModel& torn = *instance.model();
   std::vector<PieceDescription> pieces;
-  for (const Operation& operation : history) {
-    const Result<TearReport> report = instance->apply(operation);
-    if (!report) return report.error();
-    if (!is_visible(operation)) continue;
+  for (std::size_t i = 0; i < history.size(); ++i) {
+    if (!is_visible(history[i])) continue;
     pieces.clear();
-    for (const TornPiece& piece : report->pieces) {
+    for (const TornPiece& piece : model->reports[i].pieces) {
       Result<PieceDescription> description = torn.describe_piece(piece);
       if (!description) return description.error();
       pieces.push_back(std::move(*description));
@@ -204,8 +173,11 @@ Status draw_torn(const LoadedCharacter& loaded, std::span<const Operation> histo
   const Bounds bounds = bounds_of(torn.character(), *closed);
   const double diagonal = bounds.size().norm();
   std::vector<DeformedMesh> open = *closed;
-  if (const Status status = open_lips(*instance, *pose); !status) return status;
-  displace(*instance, open);
+  if (const Status status = open_lips(instance, *pose); !status) return status;
+  displace(instance, open);
+  std::vector<Wound> wounds = model->wounds;
+  std::erase_if(wounds, [](const Wound& wound) { return !(wound.length > 0); });
+  taper_wounds(instance, wounds, *closed, open);
   const auto* const cut = std::get_if<CutOperation>(&newest);
   if (cut != nullptr) move_apart(torn.character(), cut->cut, pieces, kApart * diagonal, open);
 
@@ -214,22 +186,18 @@ Status draw_torn(const LoadedCharacter& loaded, std::span<const Operation> histo
       robot == nullptr ? std::vector<Mesh>() : robot_surfaces(*robot);
   if (!beside) return beside.error();
   if (robot != nullptr) frame = view_beside(frame);
-  const std::vector<RimEdge> rims = find_rims(torn);
-  Character still =
-      make_torn_still(torn, open, *closed, *untorn, rims, frame, kThickness * diagonal);
-  add_materials(torn, still);
+  const Result<ModelLooks> looks = ModelLooks::create(loaded.source.get());
+  if (!looks) return looks.error();
+  RenderScene scene = make_torn_scene({torn, *closed, open, wounds}, *looks, kThickness * diagonal);
+  add_robot(*beside, *looks, scene);
   // The picture of a cut shows its pieces, that of a bore its surroundings.
   const double margin = cut != nullptr                                   ? 3.1
                         : std::holds_alternative<DrillOperation>(newest) ? 2.4
                                                                          : 1.45;
-  std::vector<Vec3d> shown = wound_places(torn, rims, open);
+  std::vector<Vec3d> shown = wound_places(torn, find_rims(torn), open);
   if (robot != nullptr) add_places_of_robot(*beside, diagonal, shown);
-  still.meshes.insert(still.meshes.end(), beside->begin(), beside->end());
-  const std::filesystem::path file = scene_file(png);
-  const Result<std::uint32_t> saved =
-      save_still(file, {std::move(still.meshes), {}, lights_of(frame)}, loaded.source.get());
-  if (!saved) return saved.error();
-  return render(file, aim(frame, shown, bounds, robot == nullptr ? margin : 1.1), kSize, png);
+  const Camera camera = aim(frame, shown, bounds, robot == nullptr ? margin : 1.1);
+  return write_png(png, trace(scene, camera, kSize));
 }
 
 }  // namespace sunder::tools

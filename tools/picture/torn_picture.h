@@ -12,7 +12,7 @@ namespace sunder::tools {
 
 /// Draws a torn model in the pose of its last operation, seen from the side from which that came;
 /// 1280 x 960 pixels. Lips are pulled apart, the pieces of a cut are moved apart; the surface has
-/// the materials of its file, its inside is red.
+/// the materials of its file, wounds show flesh. Takes seconds.
 ///
 /// @param history  at least one operation; all are valid for the source.
 /// @param robot    stands beside the model, or null. The picture then shows the wound and what of

@@ -21,6 +21,7 @@
 #include "tools/model/robot_joints.h"
 #include "tools/picture/picture.h"
 #include "tools/picture/torn_picture.h"
+#include "tools/tear/open_lips_of_run.h"
 #include "tools/tear/refit.h"
 #include "tools/tear/tear_files.h"
 #include "tools/tear/tear_play.h"
@@ -81,8 +82,6 @@ bool draw_picture(const TearRun& run, const std::filesystem::path& png) {
   if (history.empty())
     status = Status::failure(StatusCode::empty_input, kNone,
                              "the log has no operation that could be drawn");
-  else if (!can_draw())
-    status = Status::failure(StatusCode::not_found, kNone, "%s", kNoRenderer);
   else
     status = draw_torn(run.loaded, history, png, robot ? &*robot : nullptr);
   if (!status) (void)complain(png.string(), status, ExitCode::findings);
@@ -142,6 +141,7 @@ ExitCode finish(TearRun& run, Clock::time_point begin) {
   if (const Status status = count_result(run); !status)
     return complain(request.model.string(), status, ExitCode::internal_error);
   if (const ExitCode code = choose_influences(run); code != ExitCode::ok) return code;
+  if (const ExitCode code = open_lips_of_run(run); code != ExitCode::ok) return code;
   std::string report;
   if (request.report) {
     const Result<Json> json = report_json(run);

@@ -8,6 +8,7 @@
 #include "tools/messages/output_file.h"
 #include "tools/messages/overwriting.h"
 #include "tools/messages/text_file.h"
+#include "tools/tear/open_lips_of_run.h"
 #include "tools/value_of.h"
 
 namespace sunder::tools {
@@ -89,8 +90,10 @@ ExitCode write_files(const TearRun& run, const std::string& report) {
     save.maximum_influences = kAllInfluences;
     save.weights_of_mesh = run.certified->formats;
   }
-  const Character& character = run.certified ? run.certified->character : run.model.character();
-  if (const Status status = save_glb(*request.output, character, run.loaded, save); !status)
+  const Result<std::shared_ptr<const Character>> character = written_character(run);
+  if (!character)
+    return complain(request.output->string(), character.error(), ExitCode::internal_error);
+  if (const Status status = save_glb(*request.output, **character, run.loaded, save); !status)
     return complain(request.output->string(), status, ExitCode::internal_error);
   if (const Status status = log_file.commit(); !status)
     return complain(request.log->string(), status, ExitCode::unreadable_input);

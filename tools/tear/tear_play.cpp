@@ -66,8 +66,12 @@ Status describe_miss(const Played& played, TearRun& run, Json& report) {
     if (!cause) return cause.error();
     miss->cause = *cause;
   }
-  run.messages.warn(played.place + ": " + played.outcome.op +
-                    " missed: " + miss_text(played.operation, *miss));
+  const std::string text =
+      played.place + ": " + played.outcome.op + " missed: " + miss_text(played.operation, *miss);
+  if (run.messages.is_quiet())
+    print_error("sunder: " + text);  // A stroke that misses is never silent.
+  else
+    run.messages.warn(text);
   report["miss"] = to_json(*miss);
   return {};
 }
@@ -116,6 +120,7 @@ Status play_one(const Operation& operation, const std::string& place, bool is_me
     if (const Status status = measure_weight_error(operation, run.model, played.outcome); !status)
       return status;
   add_to_totals(played.outcome, run);
+  if (!played.outcome.has_missed) run.played.push_back(operation);
   const bool is_reported = run.request.report.has_value();
   Json report = is_reported ? to_json(played.outcome, run.model.character()) : Json::object();
   Status status;

@@ -8,6 +8,7 @@
 
 #include "tools/messages/messages.h"
 #include "tools/model/posed_source.h"
+#include "tools/open/opening.h"
 #include "tools/tear/detached_pieces.h"
 #include "tools/tear/report.h"
 #include "tools/tear/robot_tear.h"
@@ -52,6 +53,8 @@ struct TearRun {
   std::optional<RobotTear> robot = {};        ///< With --robot.
   std::optional<DetachedPieces> pieces = {};  ///< With --pieces.
   std::vector<std::string> piece_files = {};  ///< Those that were written.
+  std::vector<Operation> played = {};         ///< Those that met the surface, as given.
+  std::optional<Opening> opening = {};        ///< With --open.
 };
 
 }  // namespace sunder::tools

@@ -1,0 +1,217 @@
+// The renderer of the command's pictures: tools/render.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <jpeglib.h>
+
+#include <gtest/gtest.h>
+
+#include "support/random.h"
+#include "support/temporary_folder.h"
+#include "tools/render/image.h"
+#include "tools/render/palette.h"
+#include "tools/render/png_file.h"
+#include "tools/render/trace.h"
+#include "tools/render/triangle_tree.h"
+
+namespace sunder::tools {
+namespace {
+
+/// Colours that change smoothly, so that a JPEG holds them.
+Picture gradient(int width, int height, int offset = 0) {
+  Picture picture{width, height, {}};
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      picture.colors.push_back({static_cast<std::uint8_t>((4 * x + offset) & 255),
+                                static_cast<std::uint8_t>(3 * y), static_cast<std::uint8_t>(80)});
+  return picture;
+}
+
+std::vector<std::byte> as_jpeg(const Picture& picture) {
+  jpeg_compress_struct jpeg = {};
+  jpeg_error_mgr errors = {};
+  jpeg.err = jpeg_std_error(&errors);
+  jpeg_create_compress(&jpeg);
+  unsigned char* memory = nullptr;
+  unsigned long size = 0;
+  jpeg_mem_dest(&jpeg, &memory, &size);
+  jpeg.image_width = static_cast<JDIMENSION>(picture.width);
+  jpeg.image_height = static_cast<JDIMENSION>(picture.height);
+  jpeg.input_components = 3;
+  jpeg.in_color_space = JCS_RGB;
+  jpeg_set_defaults(&jpeg);
+  jpeg_set_quality(&jpeg, 95, TRUE);
+  jpeg_start_compress(&jpeg, TRUE);
+  for (int y = 0; y < picture.height; ++y) {
+    auto row = picture.colors;
+    JSAMPROW rows[] = {row[static_cast<std::size_t>(y * picture.width)].data()};
+    jpeg_write_scanlines(&jpeg, rows, 1);
+  }
+  jpeg_finish_compress(&jpeg);
+  std::vector<std::byte> bytes(size);
+  std::memcpy(bytes.data(), memory, size);
+  jpeg_destroy_compress(&jpeg);
+  std::free(memory);
+  return bytes;
+}
+
+void expect_pixels(const Image& image, const Picture& picture, int tolerance) {
+  ASSERT_EQ(image.width, picture.width);
+  ASSERT_EQ(image.height, picture.height);
+  for (std::size_t i = 0; i < picture.colors.size(); ++i)
+    for (std::size_t c = 0; c < 3; ++c)
+      ASSERT_NEAR(image.rgba[4 * i + c], picture.colors[i][c], tolerance) << i;
+}
+
+TEST(Image, a_written_png_is_read_again) {
+  const test::TemporaryFolder folder;
+  const Picture picture = gradient(37, 21);
+  ASSERT_TRUE(write_png(folder.path() / "a.png", picture));
+  const auto image = decode_image(test::read_bytes(folder.path() / "a.png"));
+  ASSERT_TRUE(image) << image.error().text();
+  expect_pixels(*image, picture, 0);
+}
+
+TEST(Image, a_jpeg_is_read) {
+  const Picture picture = gradient(40, 24);
+  const auto image = decode_image(as_jpeg(picture));
+  ASSERT_TRUE(image) << image.error().text();
+  expect_pixels(*image, picture, 14);
+}
+
+TEST(Image, damaged_files_are_refused_or_read_in_part) {
+  const test::TemporaryFolder folder;
+  ASSERT_TRUE(write_png(folder.path() / "a.png", gradient(64, 64)));
+  test::Random random(7);
+  for (const std::vector<std::byte>& whole :
+       {test::read_bytes(folder.path() / "a.png"), as_jpeg(gradient(64, 64))})
+    for (int i = 0; i < 300; ++i) {
+      std::vector<std::byte> bytes = whole;
+      for (int k = 0; k < 4; ++k)
+        bytes[3 +
+              static_cast<std::size_t>(random.uniform(0, static_cast<double>(bytes.size() - 4)))] =
+            static_cast<std::byte>(random.uniform(0, 255));
+      if (i % 3 == 0) bytes.resize(bytes.size() / 2);
+      const auto image = decode_image(bytes);
+      if (image) {
+        EXPECT_EQ(image->rgba.size(), std::size_t{4} * static_cast<std::size_t>(image->width) *
+                                          static_cast<std::size_t>(image->height));
+      }
+    }
+  EXPECT_EQ(decode_image({}).error().code(), StatusCode::unsupported_format);
+}
+
+TEST(AnimatedPng, programs_that_know_plain_png_show_the_first_picture) {
+  const test::TemporaryFolder folder;
+  const std::vector<Picture> pictures = {gradient(32, 20), gradient(32, 20, 60),
+                                         gradient(32, 20, 60), gradient(32, 20)};
+  const auto file = folder.path() / "a.png";
+  ASSERT_TRUE(write_animated_png(file, pictures, 80));
+  const std::vector<std::byte> bytes = test::read_bytes(file);
+  const auto image = decode_image(bytes);
+  ASSERT_TRUE(image) << image.error().text();
+  expect_pixels(*image, pictures[0], 6);
+  const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const auto count = [&](const std::string& kind) {
+    std::size_t found = 0;
+    for (std::size_t at = text.find(kind); at != std::string::npos; at = text.find(kind, at + 1))
+      ++found;
+    return found;
+  };
+  EXPECT_EQ(count("acTL"), 1u);
+  EXPECT_EQ(count("fcTL"), 4u);
+  EXPECT_EQ(count("fdAT"), 3u);
+}
+
+TEST(Palette, few_colours_are_kept) {
+  const Picture picture = gradient(12, 12);  // 144 colours
+  const Palette palette(std::span(&picture, 1));
+  for (const Picture::Color& color : picture.colors)
+    for (std::size_t c = 0; c < 3; ++c)
+      EXPECT_NEAR(palette.colors()[palette.at(color)][c], color[c], 3);
+}
+
+TEST(TriangleTree, finds_what_a_search_of_all_triangles_finds) {
+  for (std::uint32_t seed = 1; seed <= 20; ++seed) {
+    test::Random random(seed);
+    const auto place = [&] {
+      return Vec3d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1))
+          .cast<float>()
+          .eval();
+    };
+    std::vector<TriangleTree::Corners> triangles;
+    for (std::uint32_t i = 0; i < 40 * seed; ++i) {
+      const Vec3f a = place();
+      triangles.push_back({a, Vec3f(a + 0.3f * place()), Vec3f(a + 0.3f * place())});
+    }
+    const TriangleTree tree(triangles);
+    for (int ray = 0; ray < 60; ++ray) {
+      const Vec3f from = 2 * place(), along = place() - from;
+      float nearest = 5;
+      for (const TriangleTree::Corners& triangle : triangles) {
+        const TriangleTree::Hit alone =
+            TriangleTree(std::span(&triangle, 1)).first_hit(from, along, 5);
+        if (alone.triangle != kNone) nearest = std::min(nearest, alone.distance);
+      }
+      const TriangleTree::Hit hit = tree.first_hit(from, along, 5);
+      EXPECT_EQ(hit.triangle == kNone, nearest == 5);
+      EXPECT_EQ(hit.distance, nearest);
+      EXPECT_EQ(tree.is_blocked(from, along, 5), nearest < 5);
+    }
+  }
+}
+
+/// A square of 2 m at a height, facing up.
+void add_square(float height, float size, std::uint32_t material, RenderScene& scene) {
+  const auto corner = [&](float x, float z) { return Vec3f(x * size, height, z * size); };
+  for (const auto& corners : {std::array<Vec3f, 3>{corner(-1, -1), corner(-1, 1), corner(1, 1)},
+                              std::array<Vec3f, 3>{corner(-1, -1), corner(1, 1), corner(1, -1)}}) {
+    RenderTriangle triangle;
+    triangle.corners = corners;
+    triangle.material = material;
+    for (std::size_t i = 0; i < 3; ++i) {
+      triangle.normals[i] = Vec3f::UnitY();
+      triangle.uvs[i] = Vec2f(corners[i].x(), corners[i].z()) / (2 * size) + Vec2f(0.5f, 0.5f);
+      triangle.tints[i].setOnes();
+    }
+    scene.triangles.push_back(triangle);
+  }
+}
+
+int brightness(const Picture& picture, int x, int y) {
+  const Picture::Color& color = picture.colors[static_cast<std::size_t>(y * picture.width + x)];
+  return color[0] + color[1] + color[2];
+}
+
+TEST(Trace, textures_shadows_and_transparent_surfaces) {
+  Image image{2, 1, {255, 0, 0, 255, 0, 0, 255, 255}};
+  RenderScene scene;
+  scene.materials.resize(3);
+  scene.materials[0].factor.setOnes();
+  scene.materials[0].image = &image;
+  scene.materials[0].wrap = {RenderMaterial::Wrap::clamp, RenderMaterial::Wrap::clamp};
+  scene.materials[2].factor = Vec4f(1, 1, 1, 0);
+  add_square(0, 1, 0, scene);
+  const Camera camera{{0, 6, 0.01}, {0, 0, 0}, {0, 0, -1}, 30};
+  const PictureSize size{80, 60};
+  const Picture plain = trace(scene, camera, size);
+  const auto& left = plain.colors[30 * 80 + 28];
+  const auto& right = plain.colors[30 * 80 + 52];
+  EXPECT_GT(left[0], 3 * left[2]);
+  EXPECT_GT(right[2], 3 * right[0]);
+
+  RenderScene covered = scene;
+  add_square(3, 0.5f, 2, covered);  // Invisible: nothing changes.
+  EXPECT_EQ(trace(covered, camera, size).colors, plain.colors);
+  RenderScene shaded = scene;
+  add_square(0.3f, 0.25f, 1, shaded);
+  const Picture below = trace(shaded, camera, size);
+  EXPECT_LT(brightness(below, 47, 32), brightness(plain, 47, 32) - 20);  // beside the small square
+  EXPECT_EQ(trace(shaded, camera, size).colors, below.colors);
+}
+
+}  // namespace
+}  // namespace sunder::tools

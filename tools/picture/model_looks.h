@@ -1,0 +1,46 @@
+#pragma once
+
+#include <sunder/core/character.h>
+#include <sunder/io/character_file.h>
+#include <sunder/skinning/deform.h>
+
+#include <vector>
+
+#include "tools/render/render_scene.h"
+
+namespace sunder::tools {
+
+/// The materials of a model for drawing: base colours with their textures, PNG and JPEG. Textures
+/// that cannot be decoded are left out.
+class ModelLooks {
+ public:
+  /// @param source  null: a model without a file has no materials.
+  /// @return the failures of read_base_colours().
+  [[nodiscard]] static Result<ModelLooks> create(const SourceDocument* source);
+
+  /// A scene without triangles that has these materials; it must not outlive this object.
+  [[nodiscard]] RenderScene begin_scene() const;
+
+  /// How add_mesh() takes the parts of a mesh.
+  struct Flesh {
+    std::uint32_t first_submesh = kNone;  ///< From this one on they are walls and caps: flesh.
+    float unit = 1;                       ///< Size of its features, metres.
+    bool is_inside = false;               ///< The inside of the surface is flesh too.
+  };
+  /// Adds the surface of a mesh to a scene that began here.
+  /// @param posed  of the mesh, with normals.
+  void add_mesh(const Mesh& mesh, const DeformedMesh& posed, const Flesh& flesh,
+                RenderScene& scene) const;
+
+  /// The material of flesh in scenes that begin here.
+  static constexpr std::uint32_t kFlesh = 0;
+
+ private:
+  static constexpr std::uint32_t kPlain = 1, kFirst = 2;
+
+  std::vector<Image> images_;
+  std::vector<RenderMaterial> materials_;  ///< Flesh, a plain one, those of the file.
+  std::vector<std::uint32_t> uv_sets_;     ///< Per material.
+};
+
+}  // namespace sunder::tools

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <memory>
+
+#include "tools/messages/exit_code.h"
+#include "tools/tear/tear_run.h"
+
+namespace sunder::tools {
+
+/// With --open, measures how the lips gape. Warns, as a finding, if nothing does.
+/// @return ok, or the exit code of the failure, which was reported.
+[[nodiscard]] ExitCode open_lips_of_run(TearRun& run);
+
+/// The character that is written: with certified weights and open lips, as far as they are asked
+/// for. Valid as long as the run.
+[[nodiscard]] Result<std::shared_ptr<const Character>> written_character(const TearRun& run);
+
+/// The object `open` of the report; only with --open.
+[[nodiscard]] Json open_lips_json(const TearRun& run);
+
+}  // namespace sunder::tools
