@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "bench/cpu_seconds.h"
 #include "bench/measure.h"
 #include "support/allocation_count.h"
 
@@ -31,7 +32,7 @@ double RepeatedOperation::run(Caches caches) {
   if (caches == Caches::swept) sweep_caches();
   const std::uint64_t before = test::allocation_count();
   Result<TearReport> done = Status();
-  const double seconds = seconds_of([&] { done = work_(scene_, pose, change_); });
+  const double seconds = cpu_seconds_of([&] { done = work_(scene_, pose, change_); });
   allocations = test::allocation_count() - before;
   require(done);
   report = std::move(*done);

@@ -10,7 +10,7 @@
 #include <vtkPolyData.h>
 #include <vtkPolyDataPlaneClipper.h>
 
-#include "bench/measure.h"
+#include "bench/cpu_seconds.h"
 
 namespace sunder::bench {
 
@@ -51,7 +51,7 @@ double VtkPeer::clip() {
   clipper->SetPlane(state_->plane);
   clipper->SetClippingLoops(false);
   clipper->SetCapping(false);
-  const double seconds = seconds_of([&] { clipper->Update(); });
+  const double seconds = cpu_seconds_of([&] { clipper->Update(); });
   if (clipper->GetOutput()->GetNumberOfPoints() == 0) std::abort();
   return seconds;
 }

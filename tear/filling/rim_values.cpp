@@ -58,9 +58,11 @@ RimValues::Vertex RimValues::vertex_of(const double* row) {
 
 void RimValues::weigh(const double* weights) {
   influences_.clear();
+  const double largest = *std::max_element(weights, weights + slots_.size());
+  const double least = std::min(kLeastCapWeight, kLeastCapWeightByLargest * largest);
   double sum = 0;
   for (std::size_t s = 0; s < slots_.size(); ++s) {
-    if (weights[s] < kLeastCapWeight) continue;
+    if (!(weights[s] > 0) || weights[s] < least) continue;
     influences_.push_back({slots_[s], static_cast<float>(weights[s])});
     sum += static_cast<double>(influences_.back().weight);
   }

@@ -119,8 +119,10 @@ inline constexpr double kOtherLayerWidths = 2;
 
 // ---- Caps and walls.
 
-/// Smaller weights of inner points are left out: near the rounding of a sum of weights.
-inline constexpr double kLeastCapWeight = 1e-6;
+/// Smaller weights of inner points are left out, unless the largest one is not much larger. They
+/// are means over the whole rim, most of them too small for the weights of a file of 8 bits.
+inline constexpr double kLeastCapWeight = 1e-3;
+inline constexpr double kLeastCapWeightByLargest = 0.1;
 /// A linear map whose determinant is below this fraction of its cubed norm has no inverse.
 inline constexpr double kNoInverseDeterminant = 1e-6;
 /// A wall is smooth along its lip unless it turns by more than the angle of this cosine.

@@ -4,7 +4,12 @@
 #include <sunder/tear/topology.h>
 #include <sunder/tear/torn_model.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
+#include <set>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -95,6 +100,36 @@ TEST(Caps, of_random_cuts_in_random_poses_leave_no_border) {
     }
     while (model.undo_count() > 0) ASSERT_TRUE(model.undo());
     ASSERT_EQ(model.character(), model.source());
+  }
+}
+
+TEST(Caps, of_both_sides_have_the_same_points_and_opposite_normals) {
+  Random random(11);
+  for (int i = 0; i < 30; ++i) {
+    SCOPED_TRACE(i);
+    TornModel model = make_model(test::make_tube(6 + random.index(6), 12, 3));
+    const ModelPose pose = test::random_pose(model.source(), random, 0.4, 1.0);
+    const auto positions = test::posed_positions(model.source(), 0, pose);
+    const Vec3d place = positions[random.index(static_cast<std::uint32_t>(positions.size()))];
+    const auto report = model.cut(pose, cut_through(place, random.direction()));
+    ASSERT_TRUE(report) << report.error().text();
+    const Mesh& mesh = model.character().meshes[0];
+    // The vertices of caps by their places, per submesh: one for either side.
+    std::map<std::array<float, 3>, std::vector<std::uint32_t>> at;
+    std::set<std::uint32_t> seen;
+    for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
+      if (mesh.submeshes[mesh.triangle_submesh[t]].name != "cap") continue;
+      for (const std::uint32_t v : mesh.triangles[t])
+        if (seen.insert(v).second)
+          at[{mesh.positions[v].x(), mesh.positions[v].y(), mesh.positions[v].z()}].push_back(v);
+    }
+    for (const auto& [position, vertices] : at) {
+      if (vertices.size() != 2) continue;  // also a place where two sections meet
+      const auto a = mesh.weights.of(vertices[0]), b = mesh.weights.of(vertices[1]);
+      EXPECT_TRUE(std::equal(a.begin(), a.end(), b.begin(), b.end()));
+      EXPECT_LT((mesh.normals[vertices[0]] + mesh.normals[vertices[1]]).norm(), 1e-5f);
+    }
+    EXPECT_EQ(seen.size() > 0, report->caps > 0);
   }
 }
 
