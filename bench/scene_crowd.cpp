@@ -13,9 +13,10 @@ namespace {
 
 constexpr double kFrame = 1.0 / 90;
 
-Scene make_scene(const Crowd::Options& of) {
+Scene make_scene(const Crowd::Options& of, BackgroundThreads& background) {
   SceneOptions options;
   options.threads = of.threads;
+  options.background = background.hook();
   options.background_updates = of.background_updates;
   auto scene = Scene::create(options);
   require(scene.error(), "scene");
@@ -63,6 +64,18 @@ Clip swing(std::uint32_t bones) {
 
 }  // namespace
 
+BackgroundHook BackgroundThreads::hook() {
+  const auto run = [](void* of, void (*task)(void*), void* data) {
+    static_cast<BackgroundThreads*>(of)->threads_.emplace_back(task, data);
+  };
+  return {run, this};
+}
+
+void BackgroundThreads::finish() {
+  for (std::thread& thread : threads_) thread.join();
+  threads_.clear();
+}
+
 void require(const Status& status, const char* what) {
   if (status) return;
   std::fprintf(stderr, "%s: %s\n", what, status.text().data());
@@ -80,7 +93,7 @@ Crowd::Crowd(std::shared_ptr<const Character> character, std::uint32_t count,
              const Options& options)
     : character_(std::move(character)),
       asset_(make_asset(character_, options.is_soft)),
-      scene_(make_scene(options)),
+      scene_(make_scene(options, *background_)),
       is_background_used_(options.background_updates > 0) {
   for (std::uint32_t i = 0; i < count; ++i) {
     const auto id = scene_.spawn(asset_);

@@ -3,6 +3,7 @@
 #include <sunder/scene/scene.h>
 
 #include <memory>
+#include <thread>
 #include <vector>
 
 namespace sunder::bench {
@@ -11,6 +12,17 @@ namespace sunder::bench {
 /// bones move.
 [[nodiscard]] std::shared_ptr<const Character> make_crowd_model(std::uint32_t vertices,
                                                                 std::uint32_t bones);
+
+/// A thread for each job.
+class BackgroundThreads {
+ public:
+  ~BackgroundThreads() { finish(); }
+  [[nodiscard]] BackgroundHook hook();
+  void finish();
+
+ private:
+  std::vector<std::thread> threads_;
+};
 
 /// Instances of one model in a scene.
 class Crowd {
@@ -37,6 +49,8 @@ class Crowd {
   void stroke_on(std::uint32_t instance, double way);
   /// One frame at 90 Hz. @return seconds.
   double frame();
+  /// Returns when nothing runs in the background.
+  void finish_background() { background_->finish(); }
   [[nodiscard]] Scene& scene() { return scene_; }
   [[nodiscard]] InstanceId id(std::uint32_t instance) const { return ids_[instance]; }
   [[nodiscard]] const std::shared_ptr<const Character>& character() const { return character_; }
@@ -47,6 +61,7 @@ class Crowd {
 
   std::shared_ptr<const Character> character_;
   std::shared_ptr<const CharacterAsset> asset_;
+  std::unique_ptr<BackgroundThreads> background_ = std::make_unique<BackgroundThreads>();
   Scene scene_;
   bool is_background_used_;
   std::vector<InstanceId> ids_;

@@ -12,7 +12,7 @@ enum class LoopMode {
 
 /// Twenty seconds at 90 Hz of one soft character that plays a clip: a stroke over 40 frames, a gap,
 /// a cut with caps that takes off a part, a bore with a wall, and undo of the bore and of the cut.
-/// Milliseconds of one thread.
+/// Milliseconds of processor time of the thread that updates.
 struct LoopTimes {
   std::uint32_t vertices = 0;  ///< Of the source.
   double untorn = 0;           ///< Median frame before any tear, with all vertices posed.

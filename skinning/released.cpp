@@ -53,10 +53,10 @@ void set_released(std::span<const std::uint32_t> vertices, bool is_released, con
   released = std::move(made);
 }
 
-void mark_released(const Blocks& blocks, ReleasedVertices& released,
+void mark_released(const Blocks& blocks, bool is_known, ReleasedVertices& released,
                    std::vector<std::uint64_t>& marks) {
   if (released.vertices.empty()) return;
-  if (released.mesh_revision != blocks.revision) list_blocks(blocks, released);
+  if (!is_known || released.mesh_revision != blocks.revision) list_blocks(blocks, released);
   for (std::size_t word = 0; word < marks.size(); ++word) {
     if (word < released.returned.size()) marks[word] |= released.returned[word];
     marks[word] &= ~released.blocks[word];

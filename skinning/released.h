@@ -14,8 +14,9 @@ void set_released(std::span<const std::uint32_t> vertices, bool is_released, con
                   ReleasedVertices& released);
 
 /// Unmarks the blocks that hold released vertices only, and marks those that were taken back.
+/// @param is_known  whether the buffer was last written by this mesh.
 /// @throws std::bad_alloc. O(vertices of the mesh) after the mesh changed.
-void mark_released(const Blocks& blocks, ReleasedVertices& released,
+void mark_released(const Blocks& blocks, bool is_known, ReleasedVertices& released,
                    std::vector<std::uint64_t>& marks);
 
 }  // namespace sunder::skinning

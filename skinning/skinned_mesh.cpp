@@ -379,8 +379,7 @@ Status SkinnedMesh::deform(const BonePalette& palette, PosedBuffer& buffer,
     is_known
         ? mark_changed(blocks, data, buffer.palette_revision_, buffer.mesh_revision_, buffer.marks_)
         : mark({0, blocks.block_count()}, buffer.marks_);
-    if (!is_known) buffer.released_.mesh_revision = 0;  // its blocks are those of another mesh
-    mark_released(blocks, buffer.released_, buffer.marks_);
+    mark_released(blocks, is_known, buffer.released_, buffer.marks_);
     mark_displaced(blocks, moved, buffer.displaced_, buffer.marks_);
     list_runs(blocks, buffer.marks_, buffer.blocks_to_write_);
     if (!buffer.blocks_to_write_.empty())
