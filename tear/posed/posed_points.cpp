@@ -65,26 +65,25 @@ void PosedPoints::fetch(const SurfaceEditor& editor, Index mesh,
     for (Index k = 0; k < 3; ++k) corners[count++] = first + k;
   }
   // The faces share most of their points. A bit that two of them have in common costs no more than
-  // a prefetch.
+  // a prefetch. The faces that share a point cannot be predicted, so nothing branches there.
   std::uint64_t met = 0;
   std::size_t point_count = 0;
   for (const Index corner : std::span(corners).first(count)) {
     const Index point = surface.corner_point[corner];
-    const std::uint64_t bit = std::uint64_t{1} << point % 64;
-    if ((met & bit) != 0 || point >= known_.size()) continue;
-    met |= bit;
-    corners[point_count++] = point;
+    if (point >= known_.size()) continue;
+    const std::uint64_t is_met = met >> point % 64 & 1;
+    met |= std::uint64_t{1} << point % 64;
+    corners[point_count] = point;
+    point_count += 1 - is_met;
     prefetch(&known_[point]);
     prefetch(&surface.point_corner[point]);
   }
   const std::span<Index> points = std::span(corners).first(point_count);
-  const auto is_wanted = [&](Index point) { return known_[point].since != epoch_; };
   std::size_t vertex_count = 0;
   for (const Index point : points) {
-    if (!is_wanted(point)) continue;
     const Index corner = surface.point_corner[point];
-    if (corner == kNone) continue;
-    points[vertex_count++] = corner;
+    points[vertex_count] = corner;
+    vertex_count += static_cast<std::size_t>((known_[point].since != epoch_) & (corner != kNone));
   }
   const std::span<Index> wanted = points.first(vertex_count);
   for (const Index corner : wanted)

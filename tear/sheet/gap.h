@@ -5,6 +5,7 @@
 #include <span>
 
 #include "tear/sheet/cell_sides.h"
+#include "tear/surface/sort_by_index.h"
 
 namespace sunder::tear {
 
@@ -58,10 +59,9 @@ struct CellRim {
 GapRemoval remove_cell(CellSides& sides, std::span<const CellFace> faces, SurfaceEditor& editor,
                        CellRim* rim = nullptr);
 
-/// Sorts by faces.
-inline void sort_faces(ScratchVector<CellFace>& faces) {
-  std::sort(faces.begin(), faces.end(),
-            [](const CellFace& a, const CellFace& b) { return a.face < b.face; });
+inline void sort_faces(ScratchVector<CellFace>& faces, ScratchMemory& memory) {
+  sort_by_index(
+      faces, [](const CellFace& face) { return face.face; }, memory);
 }
 
 template <class MayHoldAny>
@@ -72,7 +72,7 @@ ScratchVector<CellFace> faces_in_cell(CellSides& sides, const Frame& frame,
     CellFace found{face, sides.places_of(face)};
     if (is_face_in_cell(found, sides)) faces.push_back(found);
   });
-  sort_faces(faces);
+  sort_faces(faces, sides.memory());
   return faces;
 }
 
@@ -101,7 +101,7 @@ ScratchVector<CellFace> faces_in_cell(CellSides& sides, std::span<const Index> s
       visit({twin / 3, places, sides.is_surely_inside(sides.at(places))});
     }
   }
-  sort_faces(faces);
+  sort_faces(faces, sides.memory());
   return faces;
 }
 

@@ -11,6 +11,7 @@
 #include "tear/path/snapping.h"
 #include "tear/sheet/face_lines.h"
 #include "tear/surface/line_splitter.h"
+#include "tear/surface/sort_by_index.h"
 #include "tear/surface/split.h"
 
 namespace sunder::tear {
@@ -230,7 +231,8 @@ class Imprint {
     ScratchVector<std::array<Index, 2>> order(&editor_.scratch());  // half-edge, edge
     order.reserve(edges_.size());
     for (Index i = 0; i < edges_.size(); ++i) order.push_back({edges_[i].half_edge, i});
-    std::sort(order.begin(), order.end());
+    sort_by_index(
+        order, [](const auto& of) { return of[0]; }, editor_.scratch());
     ScratchVector<Crossing*> along(&editor_.scratch());
     for (const auto& [half_edge, number] : order) {
       CrossedEdge& edge = edges_[number];

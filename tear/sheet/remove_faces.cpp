@@ -1,7 +1,6 @@
 #include "tear/sheet/remove_faces.h"
 
 #include <algorithm>
-#include <cstdint>
 
 #include "tear/internal/surface.h"
 #include "tear/surface/disconnect.h"
@@ -48,22 +47,19 @@ RemovedFaces::RemovedFaces(std::span<const Index> faces, const SurfaceEditor& ed
                            DisjointSets* connected)
     : faces_(faces), number_(faces.size(), editor.scratch()), border_(&editor.scratch()) {
   for (Index i = 0; i < faces.size(); ++i) number_.insert(faces[i], i);
-  border_.reserve(faces.size());
   const Surface& surface = editor.surface();
-  // Per face, a bit for each edge that was met from the face across it, which is removed too.
-  ScratchVector<std::uint8_t> met(faces.size(), 0, &editor.scratch());
+  // Edges at the border cannot be predicted, so nothing branches there.
+  border_.resize(3 * faces.size());
+  std::size_t count = 0;
   for (Index i = 0; i < faces.size(); ++i)
-    for (Index k = 0; k < 3; ++k) {
-      const Index twin = surface.twin[3 * faces[i] + k];
-      if (twin == kNone || (met[i] >> k & 1) != 0) continue;
-      const Index other = find(twin / 3);
-      if (other == kNone) {
-        border_.push_back({twin, i});
-        continue;
-      }
-      met[other] |= static_cast<std::uint8_t>(1 << twin % 3);
-      if (connected != nullptr && other != i) connected->unite_with_lesser(i, other);
+    for (Index h = 3 * faces[i]; h < 3 * faces[i] + 3; ++h) {
+      const Index twin = surface.twin[h];
+      const Index other = twin == kNone ? i : find(twin / 3);
+      border_[count] = {twin, i};
+      count += other == kNone ? 1 : 0;
+      if (connected != nullptr) connected->unite_with_lesser(i, std::min(i, other));
     }
+  border_.resize(count);
 }
 
 void RemovedFaces::remove(SurfaceEditor& editor, PosedPoints& posed) const {

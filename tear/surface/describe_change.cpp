@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "tear/surface/sort_by_index.h"
+
 namespace sunder::tear {
 namespace {
 
@@ -79,8 +81,9 @@ void describe_change(const EditLog::Mark& begin, const SurfaceEditor& editor,
     changed.push_back({before.triangle, &before});
     has_changed[ref.mesh] = true;
   });
-  std::sort(changed.begin(), changed.end(),  // which orders the triangles of each mesh too
-            [](const Changed& a, const Changed& b) { return a.triangle < b.triangle; });
+  // The triangles of each mesh are in order then, too.
+  sort_by_index(
+      changed, [](const Changed& of) { return of.triangle; }, editor.scratch());
   const std::span<const RowCounts> rows = editor.log.mesh_rows_since(begin);
 
   RecordWriter writer(editor, change);

@@ -1,8 +1,7 @@
 #include "tear/surface/gap_rims.h"
 
-#include <algorithm>
-
 #include "tear/internal/surface.h"
+#include "tear/surface/sort_by_index.h"
 
 namespace sunder::tear {
 
@@ -12,7 +11,9 @@ ScratchVector<std::uint64_t> sort_rim_points(std::span<const RimPoint> points,
   sorted.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i)
     sorted.push_back(std::uint64_t{points[i].point} << 32 | i << 1 | (points[i].is_left ? 1u : 0u));
-  std::sort(sorted.begin(), sorted.end());
+  // Those of one point are in order already, and stay so.
+  sort_by_index(
+      sorted, [](std::uint64_t point) { return static_cast<Index>(point >> 32); }, memory);
   return sorted;
 }
 

@@ -13,7 +13,7 @@ std::size_t growth(std::size_t size, std::size_t more) { return std::max(more, s
 
 /// Changes of old triangles per appended one for which a model of fixed capacity reserves memory:
 /// most operations log fewer. One that removes large areas logs more, and allocates.
-constexpr std::size_t kChangesPerAppended = 2;
+constexpr std::size_t kChangesPerAppended = 1;
 /// A model of fixed capacity reserves memory for walls and caps of a part of its triangles.
 constexpr std::size_t kTrianglesPerFilling = 8;
 /// Values of _TEARSIDE are logged for old vertices alone, which are fewer than new ones.

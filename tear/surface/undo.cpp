@@ -2,6 +2,7 @@
 #include <iterator>
 
 #include "tear/surface/describe_change.h"
+#include "tear/surface/sort_by_index.h"
 #include "tear/surface/surface_editor.h"
 
 namespace sunder::tear {
@@ -38,11 +39,13 @@ void SurfaceEditor::keep_changes(const EditLog::Mark& begin, Redo& redo) {
   redo.next_side = sides.next();
   for (const SideChange& change : redo.tails.edit.side_changes)
     redo.sides.push_back({change.mesh, change.vertex, sides.at(change.mesh, change.vertex)});
-  log.for_each_changed(begin,
-                       [&](Index triangle) { redo.changed.push_back(log.describe(triangle)); });
-  std::sort(
-      redo.changed.begin(), redo.changed.end(),
-      [](const TriangleChange& a, const TriangleChange& b) { return a.triangle < b.triangle; });
+  const ScratchMemory::Frame memory_of_step(scratch_);
+  ScratchVector<Index> changed(&scratch_);
+  changed.reserve(log.numbers_since(begin));
+  log.for_each_changed(begin, [&](Index triangle) { changed.push_back(triangle); });
+  sort_by_index(
+      changed, [](Index triangle) { return triangle; }, scratch_);
+  for (const Index triangle : changed) redo.changed.push_back(log.describe(triangle));
   for (const TriangleChange& change : redo.tails.edit.triangle_changes)
     for (const Index point : change.points)
       if (point != kNone && point < begin.points)
