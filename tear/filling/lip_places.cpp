@@ -47,10 +47,7 @@ class RimPlaces {
     if (rim_.is_closed && rotate_to_first()) locate();
     measure();
     for (LipPlace& place : places_) direct(place);
-    for (std::size_t i = 0; i < count(); ++i) limit_lean(i);
-    if (rim_.is_closed)
-      places_.front().lean = places_.back().lean =
-          std::min(places_.front().lean, places_.back().lean);
+    find_lean();
     find_room();
     return std::move(places_);
   }
@@ -172,6 +169,20 @@ class RimPlaces {
     if (options_.all_layers && dot(normal, place.down) > 0) place.down = -place.down;
     across -= dot(across, place.down) * place.down;
     if (norm(across) > kLeastUnder) place.under = across / norm(across);
+  }
+
+  void find_lean() {
+    for (std::size_t i = 0; i < count(); ++i) limit_lean(i);
+    const auto smooth = [&](std::size_t i, std::size_t by) {
+      const double step = norm(Vec3d(places_[i].at - places_[by].at)) / lean_of(options_);
+      places_[i].lean = std::min(places_[i].lean, places_[by].lean + 0.5 * step);
+    };
+    for (int round = 0; round < (rim_.is_closed ? 2 : 1); ++round) {
+      for (std::size_t i = 1; i <= count(); ++i) smooth(i, i - 1);
+      if (rim_.is_closed) smooth(0, count());
+      for (std::size_t i = count(); i-- > 0;) smooth(i, i + 1);
+      if (rim_.is_closed) smooth(count(), 0);
+    }
   }
 
   /// Where the rim bends around the gap, walls that lean below the other lip come together. They

@@ -174,24 +174,55 @@ class LipStrip {
     return column;
   }
 
+  /// The posed position of a row.
+  [[nodiscard]] Vec3d at_row(std::size_t at, std::size_t row) const {
+    const LipPlace& place = places_[at];
+    if (row > 0 && place.end != kNone)
+      return builder_.position(walls_.ends[place.end].rows[row - 1]);
+    return place.at + profile_.offset(row, place);
+  }
+  /// The normals of the two triangles below a row of an edge, times twice their areas.
+  [[nodiscard]] std::array<Vec3d, 2> doubled_areas(std::size_t edge, std::size_t row) const {
+    const Vec3d from = at_row(edge + 1, row), below = at_row(edge, row + 1) - from;
+    return {Vec3d(at_row(edge, row) - from).cross(below),
+            below.cross(Vec3d(at_row(edge + 1, row + 1) - from))};
+  }
+  /// The mean normal, by area, of the triangles of an edge around a row; around all rows at a tip.
+  [[nodiscard]] Vec3d normal(std::size_t edge, std::size_t row, bool is_tip) const {
+    Vec3d sum = Vec3d::Zero();
+    for (std::size_t r = 0; r + 1 < profile_.count; ++r)
+      if (is_tip || r == row || r + 1 == row)
+        for (const Vec3d& of : doubled_areas(edge, r)) sum += of;
+    return sum;
+  }
+  /// Whether a normal looks to the front of all these triangles.
+  [[nodiscard]] bool fits(const Vec3d& normal, std::size_t edge, std::size_t row) const {
+    for (std::size_t r = row > 0 ? row - 1 : 0; r <= row && r + 1 < profile_.count; ++r)
+      for (const Vec3d& of : doubled_areas(edge, r))
+        if (!(dot(normal, of) >= 0)) return false;
+    return true;
+  }
+
   void shade(std::size_t edge, std::size_t at, Index mesh, Column& column) {
     const LipPlace& place = places_[at];
-    const LipPlace& shape = place.is_tip() ? places_[at == edge ? edge + 1 : edge] : place;
     const std::size_t other = beside(edge, at);
     Vec3d along_rim = direction(edge);
-    const Vec3d beside = other == count() ? along_rim : direction(other);
-    column.is_smooth = !place.is_tip() && dot(along_rim, beside) > kSmoothWallCosine;
-    if (column.is_smooth) along_rim = unit_or(Vec3d(along_rim + beside), along_rim);
+    column.is_smooth = !place.is_tip() && other != count() && has_wall(other) &&
+                       dot(along_rim, direction(other)) > kSmoothWallCosine;
+    for (std::size_t r = 0; column.is_smooth && r < profile_.count; ++r) {
+      const Vec3d mean = normal(edge, r, false) + normal(other, r, false);
+      column.is_smooth = fits(mean, edge, r) && fits(mean, other, r);
+    }
+    if (column.is_smooth) along_rim = unit_or(Vec3d(along_rim + direction(other)), along_rim);
     const double u = along(edge, at) / unit_;
     double v = 0;
     for (std::size_t r = 0; r < profile_.count; ++r) {
       if (place.is_tip() && r > 0) break;
-      const std::size_t above = r > 0 ? r - 1 : 0, below = std::min(r + 1, profile_.count - 1);
-      const Vec3d slope = profile_.offset(below, shape) - profile_.offset(above, shape);
-      if (r > 0)
-        v += norm(Vec3d(profile_.offset(r, shape) - profile_.offset(above, shape))) / unit_;
-      const Vec3d normal = unit_or(Vec3d(slope.cross(along_rim)), along_rim.unitOrthogonal());
-      builder_.shade(mesh, column.corners[r], normal, along_rim, {u, v});
+      if (r > 0) v += norm(Vec3d(at_row(at, r) - at_row(at, r - 1))) / unit_;
+      Vec3d mean = normal(edge, r, place.is_tip());
+      if (column.is_smooth) mean += normal(other, r, false);
+      builder_.shade(mesh, column.corners[r], unit_or(mean, place.down.unitOrthogonal()), along_rim,
+                     {u, v});
     }
   }
 

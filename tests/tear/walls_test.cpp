@@ -76,8 +76,8 @@ TEST(Walls, of_a_tear_start_at_its_lips) {
     for (std::uint32_t v = model.source().meshes[0].vertex_count();
          v < without.character().meshes[0].vertex_count(); ++v)
       surface = std::min(surface, static_cast<double>(radius(v)));
-    EXPECT_GT(surface - deepest, 0.045);
-    EXPECT_LT(surface - deepest, 0.075);
+    EXPECT_GT(surface - deepest, 0.02);
+    EXPECT_LT(surface - deepest, 0.08);
   }
 }
 
