@@ -30,6 +30,9 @@ Vec3d blade_direction(const Stroke& stroke, const Vec3d& at) {
   return unit_or(sum, normalized(stroke.front().tip - stroke.front().base));
 }
 
+/// The share of the lean in the first row below the lip, see the profile in lip_walls.cpp.
+constexpr double kFirstRow = 1.0 / 9;
+
 /// Fills in the places of one rim, step by step.
 class RimPlaces {
  public:
@@ -186,12 +189,13 @@ class RimPlaces {
   }
 
   /// Where the rim bends around the gap, walls that lean below the other lip come together. They
-  /// lean less where their rows would change places.
+  /// lean less where even the rows nearest to the lip would change places; lower ones may, because
+  /// they are out of sight there, below the wall of a nearer lip.
   void limit_lean(std::size_t i) {
     LipPlace &a = places_[i], &b = places_[i + 1];
     const double length = norm(edge(i));
-    const double nearer =
-        lean_of(options_) * dot(Vec3d(a.under - b.under), unit_or(edge(i), Vec3d::Zero()));
+    const double nearer = kFirstRow * lean_of(options_) *
+                          dot(Vec3d(a.under - b.under), unit_or(edge(i), Vec3d::Zero()));
     if (!(nearer > 0)) return;
     const double most = kMostShorterEdges * length / nearer;
     a.lean = std::min(a.lean, most);
@@ -236,9 +240,7 @@ Index find_border(const Surface& surface, Index a, Index b) {
   return kNone;
 }
 
-double lean_of(const LipWallOptions& options) {
-  return 0.5 * options.width + kLeanDepths * options.depth;
-}
+double lean_of(const LipWallOptions& options) { return 0.5 * options.width + kLeanDepths * options.depth; }
 
 ScratchVector<LipPlace> lip_places(Rim& rim, const Stroke& stroke, const LipWallOptions& options,
                                    const LipWalls& walls, WallBuilder& builder) {

@@ -126,7 +126,7 @@ inline constexpr double kSmoothWallCosine = 0.5;
 /// A rim turns back at a tip: two edges whose directions have a smaller product than this.
 inline constexpr double kTurnsBackCosine = -0.97;
 /// How far a wall leans below the opposite lip, as a fraction of its depth.
-inline constexpr double kLeanDepths = 0.6;
+inline constexpr double kLeanDepths = 1.0;
 /// Most of an edge by which the lower edge of its wall may be shorter.
 inline constexpr double kMostShorterEdges = 0.6;
 /// The sum of two unit directions across a rim that is too short to lean in its direction.
