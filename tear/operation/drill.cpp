@@ -140,7 +140,7 @@ void drill_surface(const Bore& bore, const Workpiece& work, Outcome& outcome) {
   if (bore.wall)
     report.open_sections =
         add_bore_wall(work.editor.opened_edges.borders(), bore.origin,
-                      bore.direction / norm(bore.direction), bore.depth, kNone, work);
+                      bore.direction / norm(bore.direction), bore.depth, bore.wall_material, work);
 }
 
 }  // namespace sunder::tear

@@ -83,6 +83,8 @@ void OngoingStroke::add_walls(const Blade* front, const Workpiece& work) {
   LipWallOptions walls;
   walls.depth = options_.wall_depth;
   walls.width = options_.width;
+  walls.roll = options_.lip_roll;
+  walls.material = options_.wall_material;
   walls.all_layers = options_.layers == Layers::all;
   if (front != nullptr) {
     walls.front = *front;

@@ -207,6 +207,60 @@ TEST(WallShape, grows_while_the_stroke_goes_on) {
   }
 }
 
+TEST(WallShape, has_the_material_that_is_named) {
+  TornModel model = make_model(test::make_tube(10, 12, 3));
+  const ModelPose pose = *bind_pose(model.source());
+  TearOptions options;
+  options.wall_depth = 0.05;
+  options.wall_material = 5;
+  const Stroke stroke = {{{-0.2, 1.2, 0.8}, {-0.2, 1.2, 0.2}}, {{0.2, 1.8, 0.8}, {0.2, 1.8, 0.2}}};
+  ASSERT_TRUE(model.tear(pose, stroke, options));
+  EXPECT_EQ(model.character().meshes[0].submeshes.back().material, 5u);
+  PlaneCut cut;
+  cut.point = {0, 0.7, 0};
+  cut.normal = {0, 1, 0};
+  cut.caps = true;
+  cut.cap_material = 6;
+  ASSERT_TRUE(model.cut(pose, cut));
+  EXPECT_EQ(model.character().meshes[0].submeshes.back().name, "cap");
+  EXPECT_EQ(model.character().meshes[0].submeshes.back().material, 6u);
+  Bore bore{{0, 2.5, 1}, {0, 0, -1}, 0.1, 5};
+  bore.wall = true;
+  bore.wall_material = 7;
+  ASSERT_TRUE(model.drill(pose, bore));
+  EXPECT_EQ(model.character().meshes[0].submeshes.back().name, "wall");
+  EXPECT_EQ(model.character().meshes[0].submeshes.back().material, 7u);
+}
+
+TEST(WallShape, begins_with_a_rim_where_lips_roll_outwards) {
+  for (const double width : {0.0, 0.03}) {
+    SCOPED_TRACE(width);
+    TornModel model = make_model(test::make_sheet(24));
+    const ModelPose pose = *bind_pose(model.source());
+    TearOptions options;
+    options.wall_depth = 0.04;
+    options.width = width;
+    options.lip_roll = 0.01;
+    ASSERT_TRUE(model.tear(pose, straight(4), options));
+    EXPECT_THAT(test::broken_laws(model), testing::IsEmpty());
+    EXPECT_THAT(test::broken_surface(model), testing::IsEmpty());
+    double highest = 0, lowest = 0;
+    for (const Triangle& wall : live(triangles_of(model.character(), true)))
+      for (const std::uint32_t v : wall) {
+        highest = std::max(highest, double{model.character().meshes[0].positions[v].z()});
+        lowest = std::min(lowest, double{model.character().meshes[0].positions[v].z()});
+      }
+    EXPECT_NEAR(highest, 0.6 * options.lip_roll, 1e-6);
+    EXPECT_NEAR(lowest, -options.wall_depth, 1e-6);
+    ASSERT_TRUE(model.undo());
+    EXPECT_EQ(model.character(), model.source());
+  }
+  TearOptions wrong;
+  wrong.lip_roll = -1;
+  TornModel model = make_model(test::make_sheet(4));
+  EXPECT_FALSE(model.tear(*bind_pose(model.source()), straight(2), wrong));
+}
+
 /// Two sheets, one below the other, or one sheet folded over in waves.
 Character make_layers(std::uint32_t cells, double distance) {
   Character layers = test::make_sheet(cells), below = test::make_sheet(cells);
