@@ -118,6 +118,7 @@ Result<Operation> resolve_puncture(const PosedSurface& surface, const PunctureOp
   drill.bore.depth = ends.begin - ends.end;
   drill.bore.chord_tolerance = puncture.chord_tolerance;
   drill.bore.wall = puncture.wall;
+  drill.bore.wall_material = puncture.wall_material;
   drill.bore.weights = puncture.weights;
   return Operation(drill);
 }

@@ -92,6 +92,7 @@ Result<Operation> resolve_sever(const PosedSurface& surface, const SeverOperatio
   cut.point = limb->place;
   cut.normal = *normal;
   cut.caps = sever.caps;
+  cut.cap_material = sever.cap_material;
   for (const Section& section : *sections) cut.sections.push_back(place_on(section));
   cut.weights = sever.weights;
   return Operation(CutOperation{sever.pose, cut});

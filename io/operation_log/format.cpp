@@ -104,6 +104,10 @@ Json refit_json(const RefitOptions& refit) {
           {"smoothness", refit.smoothness}};
 }
 
+void add_material(Json& json, const char* key, std::uint32_t material) {
+  if (material != kNone) json[key] = material;
+}
+
 /// The fields of an operation that are on its first line.
 Json header(const TearOperation& tear) {
   Json json = {{"op", "tear"},
@@ -111,6 +115,8 @@ Json header(const TearOperation& tear) {
                {"width", tear.options.width},
                {"layers", tear.options.layers == Layers::all ? "all" : "nearest"},
                {"wall_depth", tear.options.wall_depth}};
+  if (tear.options.lip_roll > 0) json["lip_roll"] = tear.options.lip_roll;
+  add_material(json, "wall_material", tear.options.wall_material);
   add_weights(json, tear.options.weights);
   return json;
 }
@@ -122,6 +128,7 @@ Json header(const CutOperation& operation) {
                {"plane", {{"point", vector_json(cut.point)}, {"normal", vector_json(cut.normal)}}}};
   for (const Vec3d& corner : cut.bounds) json["bounds"].push_back(vector_json(corner));
   json["caps"] = cut.caps;
+  add_material(json, "cap_material", cut.cap_material);
   for (const Vec3d& place : cut.sections) json["sections"].push_back(vector_json(place));
   if (cut.first_hit)
     json["first_hit"] = {{"origin", vector_json(cut.first_hit->origin)},
@@ -141,6 +148,7 @@ Json header(const DrillOperation& operation) {
       {"depth", bore.depth},
       {"chord_tolerance", bore.chord_tolerance},
       {"wall", bore.wall}};
+  add_material(json, "wall_material", bore.wall_material);
   add_weights(json, bore.weights);
   return json;
 }

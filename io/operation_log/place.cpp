@@ -85,6 +85,10 @@ std::uint32_t read_integer(const Place& place, const char* what, std::uint32_t l
   return static_cast<std::uint32_t>(integer);
 }
 
+std::uint32_t read_material(const Place& place) {
+  return read_integer(place, "the index of a material");
+}
+
 const Json& read_array(const Place& place, const char* what) {
   if (!place.value.is_array()) place.expected(what);
   return place.value;

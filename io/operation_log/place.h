@@ -54,6 +54,8 @@ std::string read_name(const Place& place);
 /// @param what  its name, for the error text.
 std::uint32_t read_integer(const Place& place, const char* what, std::uint32_t least = 0,
                            std::uint32_t most = kNone - 1);
+/// The index of a material of the file.
+std::uint32_t read_material(const Place& place);
 const Json& read_array(const Place& place, const char* what);
 
 /// Reads all numbers of an array, which must have that length.

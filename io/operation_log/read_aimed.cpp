@@ -61,12 +61,14 @@ void read_tear_options(const Place& place, TearOptions& options) {
   read_if_given(place, "width", read_number_at_least_zero, options.width);
   read_if_given(place, "layers", read_layers, options.layers);
   read_if_given(place, "wall_depth", read_number_at_least_zero, options.wall_depth);
+  read_if_given(place, "wall_material", read_material, options.wall_material);
+  read_if_given(place, "lip_roll", read_number_at_least_zero, options.lip_roll);
   read_if_given(place, "weights", read_weight_options, options.weights);
 }
 
 SlashOperation read_slash(const Place& place) {
   place.check_fields({"op", "pose", "around", "at", "from", "length", "turn", "depth", "width",
-                      "layers", "wall_depth", "weights"});
+                      "layers", "wall_depth", "wall_material", "lip_roll", "weights"});
   SlashOperation slash;
   read_if_given(place, "pose", read_pose, slash.pose);
   slash.place.bone = read_bone(place.at("around"));
@@ -80,7 +82,8 @@ SlashOperation read_slash(const Place& place) {
 }
 
 SeverOperation read_sever(const Place& place) {
-  place.check_fields({"op", "pose", "bone", "at", "tilt", "from", "caps", "weights"});
+  place.check_fields(
+      {"op", "pose", "bone", "at", "tilt", "from", "caps", "cap_material", "weights"});
   SeverOperation sever;
   read_if_given(place, "pose", read_pose, sever.pose);
   sever.place.bone = read_bone(place.at("bone"));
@@ -90,13 +93,14 @@ SeverOperation read_sever(const Place& place) {
     place.at("from").malformed("without a tilt the direction has no meaning");
   read_if_given(place, "from", read_view, sever.from);
   read_if_given(place, "caps", read_bool, sever.caps);
+  read_if_given(place, "cap_material", read_material, sever.cap_material);
   read_if_given(place, "weights", read_weight_options, sever.weights);
   return sever;
 }
 
 PunctureOperation read_puncture(const Place& place) {
   place.check_fields({"op", "pose", "around", "at", "from", "radius", "through", "depth",
-                      "chord_tolerance", "wall", "weights"});
+                      "chord_tolerance", "wall", "wall_material", "weights"});
   PunctureOperation puncture;
   read_if_given(place, "pose", read_pose, puncture.pose);
   puncture.place.bone = read_bone(place.at("around"));
@@ -109,6 +113,7 @@ PunctureOperation read_puncture(const Place& place) {
     place.at("depth").malformed("a puncture through the limb has no depth of its own");
   read_if_given(place, "chord_tolerance", read_number_at_least_zero, puncture.chord_tolerance);
   read_if_given(place, "wall", read_bool, puncture.wall);
+  read_if_given(place, "wall_material", read_material, puncture.wall_material);
   read_if_given(place, "weights", read_weight_options, puncture.weights);
   return puncture;
 }
@@ -134,7 +139,8 @@ SurfacePlace read_surface_place(const Place& place) {
 }
 
 IncisionOperation read_incision(const Place& place) {
-  place.check_fields({"op", "pose", "points", "depth", "width", "layers", "wall_depth", "weights"});
+  place.check_fields({"op", "pose", "points", "depth", "width", "layers", "wall_depth",
+                      "wall_material", "lip_roll", "weights"});
   IncisionOperation incision;
   read_if_given(place, "pose", read_pose, incision.pose);
   const Place points = place.at("points");

@@ -29,12 +29,15 @@ void read_stroke(const Place& place, TearOperation& tear) {
 }
 
 TearOperation read_tear(const Place& place) {
-  place.check_fields({"op", "pose", "width", "layers", "wall_depth", "weights", "stroke"});
+  place.check_fields({"op", "pose", "width", "layers", "wall_depth", "wall_material", "lip_roll",
+                      "weights", "stroke"});
   TearOperation tear;
   read_if_given(place, "pose", read_pose, tear.pose);
   read_if_given(place, "width", read_number_at_least_zero, tear.options.width);
   read_if_given(place, "layers", read_layers, tear.options.layers);
   read_if_given(place, "wall_depth", read_number_at_least_zero, tear.options.wall_depth);
+  read_if_given(place, "wall_material", read_material, tear.options.wall_material);
+  read_if_given(place, "lip_roll", read_number_at_least_zero, tear.options.lip_roll);
   read_if_given(place, "weights", read_weight_options, tear.options.weights);
   read_stroke(place.at("stroke"), tear);
   return tear;
@@ -71,8 +74,8 @@ std::string read_limb(const Place& place) {
 }
 
 CutOperation read_cut(const Place& place) {
-  place.check_fields(
-      {"op", "pose", "plane", "bounds", "caps", "sections", "first_hit", "bone", "weights"});
+  place.check_fields({"op", "pose", "plane", "bounds", "caps", "sections", "first_hit", "bone",
+                      "weights", "cap_material"});
   CutOperation operation;
   read_if_given(place, "pose", read_pose, operation.pose);
   const Place plane = place.at("plane");
@@ -84,13 +87,14 @@ CutOperation read_cut(const Place& place) {
   read_if_given(place, "sections", read_sections, operation.cut.sections);
   read_if_given(place, "first_hit", read_ray, operation.cut.first_hit);
   read_if_given(place, "bone", read_limb, operation.cut.bone);
+  read_if_given(place, "cap_material", read_material, operation.cut.cap_material);
   read_if_given(place, "weights", read_weight_options, operation.cut.weights);
   return operation;
 }
 
 DrillOperation read_drill(const Place& place) {
-  place.check_fields(
-      {"op", "pose", "axis", "radius", "depth", "chord_tolerance", "wall", "weights"});
+  place.check_fields({"op", "pose", "axis", "radius", "depth", "chord_tolerance", "wall",
+                      "wall_material", "weights"});
   DrillOperation operation;
   Bore& bore = operation.bore;
   read_if_given(place, "pose", read_pose, operation.pose);
@@ -102,6 +106,7 @@ DrillOperation read_drill(const Place& place) {
   bore.depth = read_number_above_zero(place.at("depth"));
   read_if_given(place, "chord_tolerance", read_number_at_least_zero, bore.chord_tolerance);
   read_if_given(place, "wall", read_bool, bore.wall);
+  read_if_given(place, "wall_material", read_material, bore.wall_material);
   read_if_given(place, "weights", read_weight_options, bore.weights);
   return operation;
 }

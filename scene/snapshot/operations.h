@@ -73,8 +73,8 @@ void transfer(Archive& archive, Blade& of) {
 }
 template <class Archive>
 void transfer(Archive& archive, TearOptions& of) {
-  auto& [width, layers, wall_depth, weights] = of;
-  archive(width, layers, wall_depth, weights);
+  auto& [width, layers, wall_depth, weights, wall_material, lip_roll] = of;
+  archive(width, layers, wall_depth, weights, wall_material, lip_roll);
 }
 template <class Archive>
 void transfer(Archive& archive, SectionRay& of) {
@@ -83,13 +83,13 @@ void transfer(Archive& archive, SectionRay& of) {
 }
 template <class Archive>
 void transfer(Archive& archive, PlaneCut& of) {
-  auto& [point, normal, bounds, caps, sections, weights, first_hit, bone] = of;
-  archive(point, normal, bounds, caps, sections, weights, first_hit, bone);
+  auto& [point, normal, bounds, caps, sections, weights, first_hit, bone, cap_material] = of;
+  archive(point, normal, bounds, caps, sections, weights, first_hit, bone, cap_material);
 }
 template <class Archive>
 void transfer(Archive& archive, Bore& of) {
-  auto& [origin, direction, radius, depth, chord_tolerance, wall, weights] = of;
-  archive(origin, direction, radius, depth, chord_tolerance, wall, weights);
+  auto& [origin, direction, radius, depth, chord_tolerance, wall, weights, wall_material] = of;
+  archive(origin, direction, radius, depth, chord_tolerance, wall, weights, wall_material);
 }
 template <class Archive>
 void transfer(Archive& archive, TearOperation::PoseChange& of) {

@@ -59,14 +59,14 @@ struct CapRim {
 /// The caps of one side.
 class Caps {
  public:
-  Caps(const SectionFrame& frame, Facing facing, CapShapes& shapes, const Workpiece& work,
-       TearReport& report)
+  Caps(const SectionFrame& frame, Facing facing, Index material, CapShapes& shapes,
+       const Workpiece& work, TearReport& report)
       : frame_(frame),
         facing_(facing),
         shapes_(shapes),
         work_(work),
         report_(report),
-        filling_("cap", work) {}
+        filling_("cap", work, material) {}
 
   void add(std::span<const Index> half_edges) {
     const Surface& surface = work_.editor.surface();
@@ -471,8 +471,8 @@ class Caps {
 
 }  // namespace
 
-void add_caps(const SheetOpening& opening, const Vec3d& normal, const Workpiece& work,
-              TearReport& report) {
+void add_caps(const SheetOpening& opening, const Vec3d& normal, Index material,
+              const Workpiece& work, TearReport& report) {
   if (opening.edges.empty()) return;
   const Vec3d origin = work.posed.position(work.editor, opening.edges.front()[0]);
   const Vec3d away = std::abs(normal.x()) < 0.5 ? Vec3d(Vec3d::UnitX()) : Vec3d(Vec3d::UnitY());
@@ -480,8 +480,8 @@ void add_caps(const SheetOpening& opening, const Vec3d& normal, const Workpiece&
   x /= norm(x);
   const SectionFrame frame{origin, x, normal.cross(x), normal};
   CapShapes shapes(work.editor.scratch());
-  Caps(frame, Facing::against_normal, shapes, work, report).add(opening.left);
-  Caps(frame, Facing::along_normal, shapes, work, report).add(opening.right);
+  Caps(frame, Facing::against_normal, material, shapes, work, report).add(opening.left);
+  Caps(frame, Facing::along_normal, material, shapes, work, report).add(opening.right);
 }
 
 }  // namespace sunder::tear

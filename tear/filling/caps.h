@@ -14,7 +14,8 @@ namespace sunder::tear {
 /// Rims of meshes with different skins belong to different bodies. Rims that cannot be closed are
 /// counted in `open_sections` and stay open.
 /// @param normal  of the plane of the cut, unit length; it points to the left.
-void add_caps(const SheetOpening& opening, const Vec3d& normal, const Workpiece& work,
-              TearReport& report);
+/// @param material  of the caps; kNone: that of the rim.
+void add_caps(const SheetOpening& opening, const Vec3d& normal, Index material,
+              const Workpiece& work, TearReport& report);
 
 }  // namespace sunder::tear

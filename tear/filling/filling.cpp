@@ -57,8 +57,9 @@ void set_flat_attributes(Index vertex, const Vec2d& uv, Mesh& mesh) {
 
 }  // namespace
 
-Filling::Filling(const char* name, const Workpiece& work)
+Filling::Filling(const char* name, const Workpiece& work, Index material)
     : name_(name),
+      material_(material),
       work_(work),
       submeshes_(&work.editor.scratch()),
       normal_matrices_(&work.editor.scratch()) {
@@ -143,11 +144,12 @@ void Filling::add_triangle(Index mesh, Index like_corner, const std::array<Index
                            const Triangle& vertices) {
   SurfaceEditor& editor = work_.editor;
   auto known = std::find_if(submeshes_.begin(), submeshes_.end(),
-                            [&](const Submesh& submesh) { return submesh.mesh == mesh; });
+                            [&](const FillingSubmesh& submesh) { return submesh.mesh == mesh; });
   if (known == submeshes_.end()) {
     const TriangleRef ref = editor.surface().triangle(like_corner / 3);
     const Mesh& of = editor.character().meshes[ref.mesh];
-    const Index material = of.submeshes[of.triangle_submesh[ref.triangle]].material;
+    const Index material =
+        material_ != kNone ? material_ : of.submeshes[of.triangle_submesh[ref.triangle]].material;
     submeshes_.push_back({mesh, append_submesh(mesh, name_, material, editor)});
     known = submeshes_.end() - 1;
   }
@@ -157,7 +159,7 @@ void Filling::add_triangle(Index mesh, Index like_corner, const std::array<Index
 void Filling::take_back(const EditLog::Mark& before) {
   work_.editor.roll_back(before);
   work_.posed.forget_from(before.points);
-  std::erase_if(submeshes_, [&](const Submesh& of) {
+  std::erase_if(submeshes_, [&](const FillingSubmesh& of) {
     return of.submesh >= work_.editor.character().meshes[of.mesh].submeshes.size();
   });
 }

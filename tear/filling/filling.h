@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 
+#include "tear/filling/wall_ends.h"
 #include "tear/posed/workpiece.h"
 
 namespace sunder::tear {
@@ -14,7 +15,8 @@ namespace sunder::tear {
 class Filling {
  public:
   /// @param name  of the submesh that each mesh gets for the filling.
-  Filling(const char* name, const Workpiece& work);
+  /// @param material  of these submeshes; kNone: that of the rim.
+  Filling(const char* name, const Workpiece& work, Index material = kNone);
 
   /// Adds a vertex at a corner of the rim, for a filling in `mesh`. The mesh of the rim may be
   /// another one with the same skin.
@@ -45,10 +47,13 @@ class Filling {
   /// Removes everything added since the mark.
   void take_back(const EditLog::Mark& before);
 
+  /// The submeshes so far, to go on with them in a later call of the same operation.
+  [[nodiscard]] std::span<const FillingSubmesh> submeshes() const { return submeshes_; }
+  void use(std::span<const FillingSubmesh> submeshes) {
+    submeshes_.assign(submeshes.begin(), submeshes.end());
+  }
+
  private:
-  struct Submesh {
-    Index mesh, submesh;
-  };
   /// The matrix that moves the normals of a bone.
   struct NormalMatrix {
     Mat3d linear;
@@ -58,8 +63,9 @@ class Filling {
   [[nodiscard]] const Mat3d& normal_matrix(Index skin, Index slot);
 
   const char* name_;
+  Index material_;
   Workpiece work_;
-  ScratchVector<Submesh> submeshes_;
+  ScratchVector<FillingSubmesh> submeshes_;
   ScratchVector<NormalMatrix> normal_matrices_;  ///< By slot of the skin used last.
   Index skin_ = kNone;
 };

@@ -127,6 +127,18 @@ inline constexpr double kLeastCapWeightByLargest = 0.1;
 inline constexpr double kNoInverseDeterminant = 1e-6;
 /// A wall is smooth along its lip unless it turns by more than the angle of this cosine.
 inline constexpr double kSmoothWallCosine = 0.5;
+/// A rim turns back at a tip: two edges whose directions have a smaller product than this.
+inline constexpr double kTurnsBackCosine = -0.97;
+/// How far a wall leans below the opposite lip, as a fraction of its depth.
+inline constexpr double kLeanDepths = 1.0;
+/// Most of an edge by which the lower edge of its wall may be shorter.
+inline constexpr double kMostShorterEdges = 0.6;
+/// The sum of two unit directions across a rim that is too short to lean in its direction.
+inline constexpr double kLeastUnder = 0.1;
+/// Least depth of a wall as a fraction of the wanted one, however near the next layer is.
+inline constexpr double kLeastRoom = 1e-3;
+/// Where a search for the surface below a lip begins, as a fraction of its way.
+inline constexpr double kBelowLipWays = 1e-4;
 /// A closed rim goes round the axis of a bore if its turn differs from a full one by less.
 inline constexpr double kRingQuarterTurns = 0.1;
 

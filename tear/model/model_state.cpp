@@ -222,6 +222,9 @@ Status validate_options(const TearOptions& options) {
   if (!is_length(options.wall_depth))
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "the wall depth is %g; it must be from 0 to 1e30", options.wall_depth);
+  if (!is_length(options.lip_roll))
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "the lip roll is %g; it must be from 0 to 1e30", options.lip_roll);
   if (options.weights)
     if (Status status = validate_weights(*options.weights); !status) return status;
   if (options.layers != Layers::nearest && options.layers != Layers::all)

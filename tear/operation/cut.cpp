@@ -148,7 +148,7 @@ void cut_surface(const PlaneCut& cut, const Workpiece& work, Outcome& outcome) {
   report.faces_crossed = opening.faces_crossed;
   report.blocked = opening.blocked;
   report.length_posed = opening.length_posed;
-  if (cut.caps) add_caps(opening, normal, work, report);
+  if (cut.caps) add_caps(opening, normal, cut.cap_material, work, report);
   improve_faces(before, work.editor);
 }
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/internal/ordered.h"
-#include "tear/filling/walls.h"
+#include "tear/filling/bore_wall.h"
 #include "tear/geometry/tolerances.h"
 #include "tear/sheet/gap.h"
 #include "tear/surface/improve.h"
@@ -148,8 +148,9 @@ void drill_surface(const Bore& bore, const Workpiece& work, Outcome& outcome) {
   report.area_removed_posed = removal.area_posed;
   improve_faces(before, work.editor);
   if (bore.wall)
-    report.open_sections = add_bore_wall(work.editor.opened_edges.borders(), bore.origin,
-                                         bore.direction / norm(bore.direction), bore.depth, work);
+    report.open_sections =
+        add_bore_wall(work.editor.opened_edges.borders(), bore.origin,
+                      bore.direction / norm(bore.direction), bore.depth, bore.wall_material, work);
 }
 
 }  // namespace sunder::tear

@@ -1,6 +1,6 @@
 #include "tear/operation/ongoing_stroke.h"
 
-#include "tear/filling/walls.h"
+#include "tear/filling/lip_walls.h"
 #include "tear/internal/surface.h"
 #include "tear/operation/all_layers.h"
 #include "tear/operation/nearest_layer.h"
@@ -8,11 +8,19 @@
 #include "tear/surface/improve.h"
 
 namespace sunder::tear {
+namespace {
+
+// Walls keep this distance from the blade, because the tear may still change there: in units of
+// their depth and of the gap's width.
+constexpr double kHoldDepths = 1.5, kHoldWidths = 2;
+
+}  // namespace
 
 void OngoingStroke::begin(const Blade& first, const TearOptions& options) {
   options_ = options;
   blade_ = first;
   blades_.assign(1, first);
+  walls_.clear();
   tip_ = {};
   gap_.begin(options.width, options.layers);
   hold_.hit.reset();
@@ -67,12 +75,27 @@ void OngoingStroke::extend(const Blade& to, const Workpiece& work, Outcome& outc
   else
     tear_nearest_layer(*plane, work, tip_, outcome);
   improve_faces(before, work.editor);
+  add_walls(options_.width > 0 ? &from : &to, work);  // a gap is one segment behind
+}
+
+void OngoingStroke::add_walls(const Blade* front, const Workpiece& work) {
+  if (!(options_.wall_depth > 0)) return;
+  LipWallOptions walls;
+  walls.depth = options_.wall_depth;
+  walls.width = options_.width;
+  walls.roll = options_.lip_roll;
+  walls.material = options_.wall_material;
+  walls.all_layers = options_.layers == Layers::all;
+  if (front != nullptr) {
+    walls.front = *front;
+    walls.hold = kHoldDepths * options_.wall_depth + kHoldWidths * options_.width;
+  }
+  add_lip_walls(work.editor.opened_edges.borders(), blades_, walls, walls_, work);
 }
 
 void OngoingStroke::finish(const Workpiece& work, Outcome& outcome) {
   gap_.catch_up(work, outcome);
-  if (options_.wall_depth > 0)
-    add_walls(work.editor.opened_edges.borders(), blades_, options_.wall_depth, work);
+  add_walls(nullptr, work);
 }
 
 }  // namespace sunder::tear

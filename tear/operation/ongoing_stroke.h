@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "tear/filling/wall_ends.h"
 #include "tear/operation/gap_band.h"
 #include "tear/operation/outcome.h"
 #include "tear/operation/stroke_tip.h"
@@ -31,6 +32,10 @@ class OngoingStroke {
   [[nodiscard]] const Blade& blade() const { return blade_; }
 
  private:
+  /// Adds walls to lips.
+  /// @param front  those near this blade get none yet; null: all get them.
+  void add_walls(const Blade* front, const Workpiece& work);
+
   /// Where the blade stood on the surface in the pose that was left.
   struct Hold {
     Vec3d place = Vec3d::Zero();
@@ -40,6 +45,7 @@ class OngoingStroke {
   TearOptions options_;
   Blade blade_;
   Stroke blades_;  ///< All blades, if there are walls to add.
+  LipWalls walls_;
   StrokeTip tip_;
   GapBand gap_;
   Hold hold_;

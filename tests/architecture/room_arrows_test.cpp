@@ -33,7 +33,7 @@ const std::map<std::string, Rooms> kRooms = {
       {"contact", {"model", "operation", "posed", "surface", "geometry"}},
       {"detached", {"posed", "surface", "geometry"}},
       {"operation", {"filling", "path", "sheet", "posed", "surface", "geometry"}},
-      {"filling", {"section", "sheet", "posed", "surface", "geometry"}},
+      {"filling", {"section", "path", "sheet", "posed", "surface", "geometry"}},
       {"sheet", {"path", "posed", "surface", "geometry"}},
       {"path", {"posed", "surface", "geometry"}},
       {"pieces", {"posed", "surface"}},

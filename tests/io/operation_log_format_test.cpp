@@ -274,21 +274,21 @@ class Bits {
   void add(const TearOperation& tear) {
     add(tear.pose), add(tear.stroke), add(tear.pose_changes), add(tear.options.width);
     add(tear.options.layers == Layers::all), add(tear.options.wall_depth),
-        add(tear.options.weights);
+        add(tear.options.weights), add(tear.options.wall_material), add(tear.options.lip_roll);
   }
   void add(const SectionRay& ray) { add(ray.origin), add(ray.direction); }
   void add(const CutOperation& operation) {
     add(operation.pose), add(operation.cut.point), add(operation.cut.normal),
         add(operation.cut.bounds), add(operation.cut.caps);
     add(operation.cut.sections), add(operation.cut.weights);
-    add(operation.cut.bone);
+    add(operation.cut.bone), add(operation.cut.cap_material);
     add(operation.cut.first_hit);
   }
   void add(const DrillOperation& operation) {
     add(operation.pose), add(operation.bore.origin), add(operation.bore.direction),
         add(operation.bore.radius);
     add(operation.bore.depth), add(operation.bore.chord_tolerance), add(operation.bore.wall),
-        add(operation.bore.weights);
+        add(operation.bore.weights), add(operation.bore.wall_material);
   }
   void add(const WeightsOperation& operation) {
     add(operation.first_operation), add(operation.operation_count), add(operation.weights),

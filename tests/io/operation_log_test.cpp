@@ -74,6 +74,26 @@ TEST(OperationLog, ReadsWidthLayersAndWalls) {
   EXPECT_EQ(parsed(tear_with(R"("width": 0)")).options, TearOptions{});
 }
 
+TEST(OperationLog, MaterialsAndRolledLipsGoRoundTheLog) {
+  const auto operations = parse_operations(log_of(R"(
+      {"op": "tear", "wall_depth": 0.1, "wall_material": 3, "lip_roll": 0.02,
+       "stroke": [{"base": [0,0,1], "tip": [0,0,0]}, {"base": [1,0,1], "tip": [1,0,0]}]},
+      {"op": "cut", "plane": {"point": [0,0,0], "normal": [0,1,0]}, "caps": true, "cap_material": 4},
+      {"op": "drill", "axis": {"origin": [0,0,1], "direction": [0,0,-1]}, "radius": 1, "depth": 2,
+       "wall": true, "wall_material": 5})"));
+  ASSERT_TRUE(operations) << operations.error().text();
+  const auto again = parse_operations(format_operations(*operations).value());
+  ASSERT_TRUE(again) << again.error().text();
+  for (const auto& of : {*operations, *again}) {
+    EXPECT_EQ(std::get<TearOperation>(of[0]).options.wall_material, 3u);
+    EXPECT_EQ(std::get<TearOperation>(of[0]).options.lip_roll, 0.02);
+    EXPECT_EQ(std::get<CutOperation>(of[1]).cut.cap_material, 4u);
+    EXPECT_EQ(std::get<DrillOperation>(of[2]).bore.wall_material, 5u);
+  }
+  EXPECT_FALSE(parse_operations(log_of(R"({"op": "tear", "lip_roll": -1,
+      "stroke": [{"base": [0,0,1], "tip": [0,0,0]}, {"base": [1,0,1], "tip": [1,0,0]}]})")));
+}
+
 TEST(OperationLog, ABladeMayBringItsPose) {
   const TearOperation tear = parsed(log_of(R"({"op": "tear", "stroke": [
       {"base": [0,0,1], "tip": [0,0,0]}, {"base": [1,0,1], "tip": [1,0,0], "pose": "bind"},

@@ -7,8 +7,9 @@
 #include "core/internal/ordered.h"
 #include "support/allocation_count.h"
 #include "support/rigs.h"
+#include "tear/filling/bore_wall.h"
 #include "tear/filling/caps.h"
-#include "tear/filling/walls.h"
+#include "tear/filling/lip_walls.h"
 #include "tear/sheet/open_sheet.h"
 #include "tear/surface/surface_editor.h"
 
@@ -63,7 +64,7 @@ TEST(FillingMemory, warm_caps_allocate_nothing) {
     const PlaneSide plane = plane_across(random);
     const auto count = tube.allocations_of(plane, [&](const auto& opening, const Workpiece& work) {
       TearReport report;
-      add_caps(opening, plane.normal, work, report);
+      add_caps(opening, plane.normal, kNone, work, report);
       EXPECT_EQ(report.caps, 2u);
     });
     EXPECT_EQ(count, 0u);
@@ -74,16 +75,21 @@ TEST(FillingMemory, warm_walls_allocate_nothing) {
   OpenTube tube;
   test::Random random(2);
   const Stroke stroke{{{1, 2, 0}, {0, 2, 0}}, {{0, 2, 1}, {0, 2, 0}}};
+  LipWallOptions options;
+  options.depth = 0.01;
+  LipWalls walls;
+  walls.submeshes.reserve(1);
   for (int i = 0; i < 20; ++i) {
     SCOPED_TRACE(i);
     const auto hang = [&](const auto& opening, const Workpiece& work) {
-      EXPECT_EQ(add_walls(opening.left, stroke, 0.01, work), 1u);
+      walls.clear();
+      EXPECT_EQ(add_lip_walls(opening.left, stroke, options, walls, work), 1u);
     };
     EXPECT_EQ(tube.allocations_of(plane_across(random), hang), 0u);
     // Each side is a bore without a second rim: a wall with a floor.
     const auto line = [&](const auto& opening, const Workpiece& work) {
-      const Index left = add_bore_wall(opening.left, {0, 3, 0}, {0, -1, 0}, 4, work),
-                  right = add_bore_wall(opening.right, {0, 3, 0}, {0, -1, 0}, 4, work);
+      const Index left = add_bore_wall(opening.left, {0, 3, 0}, {0, -1, 0}, 4, kNone, work),
+                  right = add_bore_wall(opening.right, {0, 3, 0}, {0, -1, 0}, 4, kNone, work);
       EXPECT_EQ(left + right, 1u);
     };
     EXPECT_EQ(tube.allocations_of(plane_across(random), line), 0u);

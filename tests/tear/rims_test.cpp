@@ -330,7 +330,7 @@ std::vector<ChangeRecord> tear_by_calls(TornModel& model, const TearOperation& t
     const auto report = stroke->extend(other != nullptr && i % 2 == 0 ? *other : pose,
                                        tear.stroke[i], 0.0, &changes.emplace_back());
     EXPECT_TRUE(report) << report.error().text();
-    expect_listed_well(changes.back().rims, model);
+    expect_listed_well(changes.back().rims, model, tear.options.wall_depth > 0);
   }
   EXPECT_TRUE(stroke->end(&changes.emplace_back()));
   expect_listed_well(changes.back().rims, model, tear.options.wall_depth > 0);

@@ -53,8 +53,10 @@ TEST(Walls, of_a_tear_start_at_its_lips) {
     ASSERT_TRUE(without.tear(pose, along_tube(), {width, Layers::nearest, 0.0}));
     const TopologyCounts counts = *count_topology(model.character()),
                          bare = *count_topology(without.character());
-    // Two triangles per border edge, whose lower edges form a border of the same length.
-    EXPECT_EQ(counts.triangles, bare.triangles + 2 * bare.boundary_edges);
+    // Three rows of two triangles per border edge, whose lower edges form a border of the same
+    // length. At a tip, where lips without a gap meet, the wall has no depth.
+    const std::uint32_t tips = width > 0 ? 0 : 2;
+    EXPECT_EQ(counts.triangles, bare.triangles + 6 * bare.boundary_edges - 6 * tips);
     EXPECT_EQ(counts.boundary_edges, bare.boundary_edges);
     EXPECT_EQ(counts.boundary_loops, 1u);
     EXPECT_EQ(counts.components, 1u);
@@ -74,7 +76,8 @@ TEST(Walls, of_a_tear_start_at_its_lips) {
     for (std::uint32_t v = model.source().meshes[0].vertex_count();
          v < without.character().meshes[0].vertex_count(); ++v)
       surface = std::min(surface, static_cast<double>(radius(v)));
-    EXPECT_NEAR(surface - deepest, 0.07, 0.02);
+    EXPECT_GT(surface - deepest, 0.02);
+    EXPECT_LT(surface - deepest, 0.09);
   }
 }
 

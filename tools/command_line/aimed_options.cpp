@@ -28,13 +28,15 @@ void add_aimed_operations(CLI::App& verb) {
   add(verb, kSlash, "BONE[@SHARE][,FIELD=VALUE...]",
       "Tear a stroke on the limb of a bone, at a share of its length from 0 to 1 (0.5); fields: "
       "from, "
-      "length, turn, depth, width, layers, wall_depth; see docs/aim.md. Repeatable, as those "
+      "length, turn, depth, width, layers, wall_depth, wall_material, lip_roll; see docs/aim.md. "
+      "Repeatable, as those "
       "below; applied in order, after --ops");
   add(verb, kSever, "BONE[@SHARE][,FIELD=VALUE...]",
       "Cut through the limb of a bone and nothing else, without a share at its joint; fields: "
-      "tilt, from, caps");
+      "tilt, from, caps, cap_material");
   add(verb, kPuncture, "BONE[@SHARE][,FIELD=VALUE...]",
-      "Bore into the limb of a bone; fields: from, radius, through, depth, wall, chord_tolerance");
+      "Bore into the limb of a bone; fields: from, radius, through, depth, wall, "
+      "wall_material, chord_tolerance");
   verb.add_option(
           "--pose",
           "The pose for the options above and for --robot: rest, bind, or a clip at a time in "

@@ -71,7 +71,8 @@ Status add_field(const std::string& field, Json& operation) {
                            key.c_str());
   const Json value =
       equals == std::string::npos ? Json(true) : value_json(field.substr(equals + 1));
-  if (value.is_object() && (key == "width" || key == "wall_depth" || key == "chord_tolerance"))
+  if (value.is_object() &&
+      (key == "width" || key == "wall_depth" || key == "lip_roll" || key == "chord_tolerance"))
     return Status::failure(StatusCode::malformed_file, kNone,
                            "%s: '%.60s': expected metres; only length, depth and radius may be in "
                            "widths",

@@ -71,6 +71,7 @@ struct SeverOperation {
   std::optional<View> from = {};  ///< Counts only with a tilt.
   bool caps = true;
   std::optional<WeightOptions> weights = {};
+  std::uint32_t cap_material = kNone;  ///< As in PlaneCut.
 };
 
 /// A bore into or through a limb, `{"op": "puncture"}` in a log.
@@ -85,6 +86,7 @@ struct PunctureOperation {
   double chord_tolerance = 0.0;  ///< As Bore::chord_tolerance.
   bool wall = false;
   std::optional<WeightOptions> weights = {};
+  std::uint32_t wall_material = kNone;  ///< As in Bore.
 };
 
 /// A place in a triangle of the model as it is torn so far.

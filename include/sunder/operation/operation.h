@@ -1,5 +1,6 @@
 #pragma once
 
+#include <sunder/core/index.h>
 #include <sunder/core/math.h>
 #include <sunder/operation/pose_spec.h>
 #include <sunder/operation/weight_options.h>
@@ -35,6 +36,10 @@ struct TearOptions {
   /// Depth of the inner walls along the blade, posed metres, >= 0. With 0 there are no walls.
   double wall_depth = 0.0;
   std::optional<WeightOptions> weights = {};  ///< For new points; if empty, the model's options.
+  /// Material of the walls, an index in the source file. kNone: that of the lips.
+  std::uint32_t wall_material = kNone;
+  /// Radius of the rims that walls begin with: lips rolled outwards. Posed metres, >= 0.
+  double lip_roll = 0.0;
 
   bool operator==(const TearOptions&) const = default;
 };
@@ -64,6 +69,8 @@ struct PlaneCut {
   /// Name of a bone. If not empty, only sections are cut that this bone and those below it move by
   /// more than half, on average along the section.
   std::string bone = {};
+  /// Material of the caps, an index in the source file. kNone: that of the rim.
+  std::uint32_t cap_material = kNone;
 
   bool operator==(const PlaneCut&) const = default;
 };
@@ -78,6 +85,8 @@ struct Bore {
   double chord_tolerance = 0.0;
   bool wall = false;  ///< Lines the bore with a wall, from rim to rim or down to a floor.
   std::optional<WeightOptions> weights = {};  ///< For new points; if empty, the model's options.
+  /// Material of the wall, an index in the source file. kNone: that of the rim.
+  std::uint32_t wall_material = kNone;
 
   bool operator==(const Bore&) const = default;
 };

@@ -1,122 +1,13 @@
-#include "tear/filling/walls.h"
+#include "tear/filling/bore_wall.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/internal/ordered.h"
-#include "tear/filling/filling.h"
-#include "tear/geometry/tolerances.h"
-#include "tear/internal/surface.h"
+#include "tear/filling/wall_builder.h"
 #include "tear/section/flat_section.h"
-#include "tear/surface/append_filling.h"
-#include "tear/surface/rim.h"
 
 namespace sunder::tear {
 namespace {
-
-constexpr const char* kName = "wall";
-
-/// A vertex of a wall, and its surface point.
-struct Corner {
-  Index point = kNone;
-  Index vertex = kNone;
-};
-
-/// Builds the walls of some borders, one border at a time.
-class Walls {
- public:
-  explicit Walls(const Workpiece& work) : work_(work), filling_(kName, work) {}
-
-  /// Runs `build`, which adds triangles for some borders, and connects them. @return false if that
-  /// fails; then nothing is added.
-  template <class Build>
-  bool add(std::span<const Index> half_edges, Build build) {
-    const EditLog::Mark before = work_.editor.mark();
-    is_sound_ = true;
-    build();
-    if (is_sound_ && filling_.connect(half_edges, before)) return true;
-    filling_.take_back(before);
-    return false;
-  }
-
-  [[nodiscard]] ScratchMemory& scratch() const { return work_.editor.scratch(); }
-  [[nodiscard]] const Surface& surface() const { return work_.editor.surface(); }
-  [[nodiscard]] Vec3d position(Index point) const {
-    return work_.posed.position(work_.editor, point);
-  }
-  [[nodiscard]] Index mesh_of(Index half_edge) const {
-    return surface().triangle(half_edge / 3).mesh;
-  }
-
-  /// Rims of different skins cannot share vertices; all points of one rim have the same skin.
-  [[nodiscard]] bool have_one_skin(const Rim& a, const Rim& b) const {
-    const auto& meshes = work_.editor.character().meshes;
-    return meshes[mesh_of(a.half_edges.front())].skin == meshes[mesh_of(b.half_edges.front())].skin;
-  }
-
-  [[nodiscard]] Corner add_top(Index mesh, Index corner) {
-    return {surface().corner_point[corner], filling_.add_rim_vertex(mesh, corner)};
-  }
-  /// Adds a vertex at a posed displacement from another one.
-  [[nodiscard]] Corner add_bottom(Index mesh, const Corner& top, Index point, const Vec3d& down) {
-    const Index vertex = work_.editor.births.append_filling_vertex(mesh, top.vertex);
-    Mesh& of = work_.editor.mutable_mesh(mesh);
-    const Vec3d bind = to_bind(filling_.blended(mesh, vertex), down, down);
-    of.positions[vertex] = (of.positions[vertex].cast<double>() + bind).cast<float>();
-    return {point, vertex};
-  }
-  [[nodiscard]] Index add_point(const Vec3d& at) {
-    const Index point = append_filling_point(work_.editor);
-    work_.posed.pin(point, at);
-    return point;
-  }
-  void shade(Index mesh, const Corner& corner, const Vec3d& normal, const Vec3d& tangent,
-             const Vec2d& uv) {
-    filling_.shade(mesh, corner.vertex, normal, tangent, uv);
-  }
-  void add_triangle(Index mesh, Index like_corner, const Corner& a, const Corner& b,
-                    const Corner& c) {
-    const auto place = [&](const Corner& of) -> Eigen::Vector3d {
-      return work_.editor.births.position(mesh, of.vertex).cast<double>();
-    };
-    const Eigen::Vector3d ab = place(b) - place(a), ac = place(c) - place(a);
-    is_sound_ &= squared_norm(ab.cross(ac)) > 0;  // else stored positions are too coarse for it
-    filling_.add_triangle(mesh, like_corner, {a.point, b.point, c.point},
-                          {a.vertex, b.vertex, c.vertex});
-  }
-  void fail() { is_sound_ = false; }
-
- private:
-  Workpiece work_;
-  Filling filling_;
-  bool is_sound_ = true;
-};
-
-Vec3d unit_or(const Vec3d& vector, const Vec3d& otherwise) {
-  const double length = norm(vector);
-  return length > kShortestDirection ? Vec3d(vector / length) : otherwise;
-}
-
-double squared_distance(const Blade& blade, const Vec3d& point) {
-  const Vec3d along = blade.tip - blade.base;
-  const double at = std::clamp(dot(along, point - blade.base) / squared_norm(along), 0.0, 1.0);
-  return squared_norm(point - blade.base - at * along);
-}
-
-/// The direction of the blades near a place, weighted by the inverse fourth power of their
-/// distances, so that it varies smoothly from one blade to the next.
-Vec3d blade_direction(const Stroke& stroke, const Vec3d& at) {
-  double nearest = squared_distance(stroke.front(), at);
-  for (const Blade& blade : stroke) nearest = std::min(nearest, squared_distance(blade, at));
-  Vec3d sum = Vec3d::Zero();
-  for (const Blade& blade : stroke) {
-    const double squared = squared_distance(blade, at);
-    const double ratio =
-        squared > 0 ? nearest / squared : 1.0;  // 1 for the nearest blade, in any unit
-    sum += ratio * ratio * normalized(blade.tip - blade.base);
-  }
-  return unit_or(sum, normalized(stroke.front().tip - stroke.front().base));
-}
 
 /// The end of a half-edge of a rim and the start of the next.
 struct RimPlace {
@@ -127,12 +18,12 @@ struct RimPlace {
 };
 
 /// Adds a strip that extends downwards from a rim.
-void hang_strip(const Rim& rim, std::span<const RimPlace> places, double unit, Walls& walls) {
+void hang_strip(const Rim& rim, std::span<const RimPlace> places, double unit, WallBuilder& walls) {
   const std::size_t count = rim.half_edges.size();
   const auto wall_normal = [&](std::size_t i) {
     return places[i].down.cross(Vec3d(places[i + 1].at - places[i].at));
   };
-  Corner top, bottom;
+  WallCorner top, bottom;
   Index mesh = kNone;
   for (std::size_t i = 0; i < count; ++i) {
     const Index h = rim.half_edges[i];
@@ -155,7 +46,7 @@ void hang_strip(const Rim& rim, std::span<const RimPlace> places, double unit, W
       mesh = walls.mesh_of(h);
       add_corners(i, h);
     }
-    const Corner top_before = top, bottom_before = bottom;
+    const WallCorner top_before = top, bottom_before = bottom;
     add_corners(i + 1, Surface::next(h));
     walls.add_triangle(mesh, h, top, top_before, bottom_before);
     walls.add_triangle(mesh, h, top, bottom_before, bottom);
@@ -164,7 +55,7 @@ void hang_strip(const Rim& rim, std::span<const RimPlace> places, double unit, W
 
 /// The places of a rim, one more than its half-edges; a closed rim ends with its first place.
 template <class Down>
-ScratchVector<RimPlace> places_of(const Rim& rim, Walls& walls, Down down) {
+ScratchVector<RimPlace> places_of(const Rim& rim, WallBuilder& walls, Down down) {
   ScratchVector<RimPlace> places(&walls.scratch());
   places.reserve(rim.half_edges.size() + 1);
   double along = 0;
@@ -215,10 +106,11 @@ double turn(double from, double to) { return std::remainder(to - from, kTurn); }
 
 /// Adds a wall between two rings: `upper` runs in the axis' sense of rotation, `lower` against it.
 /// Both are traversed in the direction of the wall's edges, against their borders.
-void join_rings(const Ring& upper, const Ring& lower, const Axis& axis, double unit, Walls& walls) {
+void join_rings(const Ring& upper, const Ring& lower, const Axis& axis, double unit,
+                WallBuilder& walls) {
   const Index mesh = walls.mesh_of(upper.rim.half_edges.front());
   struct Place {
-    Corner corner;
+    WallCorner corner;
     double angle;
   };
   const auto add_ring = [&](const Rim& rim, double first_angle, bool backwards) {
@@ -242,7 +134,7 @@ void join_rings(const Ring& upper, const Ring& lower, const Axis& axis, double u
       const double angle = i == 0
                                ? first_angle + turn(first_angle, angle_of(corner))
                                : places.back().angle + turn(places.back().angle, angle_of(corner));
-      const Corner made = walls.add_top(mesh, corner);
+      const WallCorner made = walls.add_top(mesh, corner);
       if (i > 0) along += norm(at - before);
       before = at;
       walls.shade(mesh, made, axis.inward(at), axis.z.cross(axis.inward(at)),
@@ -269,7 +161,8 @@ void join_rings(const Ring& upper, const Ring& lower, const Axis& axis, double u
 }
 
 /// Adds a wall from a ring down to `depth`, and a floor there.
-void add_blind_wall(const Ring& ring, const Axis& axis, double depth, double unit, Walls& walls) {
+void add_blind_wall(const Ring& ring, const Axis& axis, double depth, double unit,
+                    WallBuilder& walls) {
   const auto places = places_of(ring.rim, walls, [&](const RimPlace& place) -> Vec3d {
     return (depth - axis.height(place.at)) * axis.z;
   });
@@ -277,14 +170,14 @@ void add_blind_wall(const Ring& ring, const Axis& axis, double depth, double uni
   // The floor faces upwards: its outline runs against the lower edge of the wall.
   const Index mesh = walls.mesh_of(ring.rim.half_edges.front());
   FlatLoop loop(&walls.scratch());
-  ScratchVector<Corner> corners(&walls.scratch());
+  ScratchVector<WallCorner> corners(&walls.scratch());
   loop.reserve(ring.rim.half_edges.size());
   corners.reserve(ring.rim.half_edges.size());
   for (std::size_t i = ring.rim.half_edges.size(); i-- > 0;) {
     const Index h = ring.rim.half_edges[i];
     const Vec3d at = places[i].at + places[i].down;
     loop.emplace_back(-dot(axis.x, at - axis.origin), dot(axis.y, at - axis.origin));
-    const Corner corner =
+    const WallCorner corner =
         walls.add_bottom(mesh, walls.add_top(mesh, h), places[i].bottom, places[i].down);
     walls.shade(mesh, corner, -axis.z, -axis.x, loop.back() / unit);
     corners.push_back(corner);
@@ -302,27 +195,9 @@ void add_blind_wall(const Ring& ring, const Axis& axis, double depth, double uni
 
 }  // namespace
 
-Index add_walls(std::span<const Index> half_edges, const Stroke& stroke, double depth,
-                const Workpiece& work) {
-  Walls walls(work);
-  Index count = 0;
-  for (const Rim& rim : chain_rims(half_edges, work.editor.surface(), work.editor.scratch())) {
-    const bool is_built = walls.add(rim.half_edges, [&] {
-      hang_strip(rim,
-                 places_of(rim, walls,
-                           [&](const RimPlace& place) -> Vec3d {
-                             return depth * blade_direction(stroke, place.at);
-                           }),
-                 depth, walls);
-    });
-    count += is_built ? 1 : 0;
-  }
-  return count;
-}
-
 Index add_bore_wall(std::span<const Index> half_edges, const Vec3d& origin, const Vec3d& z,
-                    double depth, const Workpiece& work) {
-  Walls walls(work);
+                    double depth, Index material, const Workpiece& work) {
+  WallBuilder walls(work, material);
   Vec3d x = z.cross(std::abs(z.x()) < 0.5 ? Vec3d(Vec3d::UnitX()) : Vec3d(Vec3d::UnitY()));
   x /= norm(x);
   const Axis axis{origin, x, z.cross(x), z};

@@ -1,0 +1,250 @@
+#include "tear/filling/lip_places.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "tear/filling/room_below.h"
+
+namespace sunder::tear {
+namespace {
+
+double squared_distance(const Blade& blade, const Vec3d& point) {
+  const Vec3d along = blade.tip - blade.base;
+  const double at = std::clamp(dot(along, point - blade.base) / squared_norm(along), 0.0, 1.0);
+  return squared_norm(point - blade.base - at * along);
+}
+
+/// The direction of the blades near a place, weighted by the inverse fourth power of their
+/// distances, so that it varies smoothly from one blade to the next.
+Vec3d blade_direction(const Stroke& stroke, const Vec3d& at) {
+  double nearest = squared_distance(stroke.front(), at);
+  for (const Blade& blade : stroke) nearest = std::min(nearest, squared_distance(blade, at));
+  Vec3d sum = Vec3d::Zero();
+  for (const Blade& blade : stroke) {
+    const double squared = squared_distance(blade, at);
+    const double ratio =
+        squared > 0 ? nearest / squared : 1.0;  // 1 for the nearest blade, in any unit
+    sum += ratio * ratio * normalized(blade.tip - blade.base);
+  }
+  return unit_or(sum, normalized(stroke.front().tip - stroke.front().base));
+}
+
+/// The share of the lean in the first row below the lip, see the profile in lip_walls.cpp.
+constexpr double kFirstRow = 1.0 / 9;
+
+/// Fills in the places of one rim, step by step.
+class RimPlaces {
+ public:
+  RimPlaces(Rim& rim, const Stroke& stroke, const LipWallOptions& options, const LipWalls& walls,
+            WallBuilder& builder)
+      : rim_(rim),
+        stroke_(stroke),
+        options_(options),
+        walls_(walls),
+        builder_(builder),
+        places_(&builder.scratch()) {}
+
+  ScratchVector<LipPlace> make() {
+    locate();
+    if (rim_.is_closed && rotate_to_first()) locate();
+    measure();
+    for (LipPlace& place : places_) direct(place);
+    find_lean();
+    find_room();
+    return std::move(places_);
+  }
+
+ private:
+  [[nodiscard]] std::size_t count() const { return rim_.half_edges.size(); }
+  [[nodiscard]] Vec3d edge(std::size_t i) const { return places_[i + 1].at - places_[i].at; }
+  /// The edge before a place, or count() if there is none.
+  [[nodiscard]] std::size_t before(std::size_t i) const {
+    return i > 0 ? i - 1 : rim_.is_closed ? count() - 1 : count();
+  }
+  [[nodiscard]] std::size_t after(std::size_t i) const {
+    return i < count() ? i : rim_.is_closed ? 0 : count();
+  }
+
+  /// Whether the rim turns back, as where the two lips of a tear without width meet.
+  [[nodiscard]] bool turns_back(std::size_t i) const {
+    const std::size_t in = before(i), out = after(i);
+    if (in == count() || out == count()) return false;
+    return dot(unit_or(edge(in), Vec3d::Zero()), unit_or(edge(out), Vec3d::Zero())) <
+           kTurnsBackCosine;
+  }
+
+  void locate() {
+    places_.assign(count() + 1, {});
+    const Surface& surface = builder_.surface();
+    for (std::size_t i = 0; i <= count(); ++i) {
+      LipPlace& place = places_[i];
+      place.point = i < count() ? surface.corner_point[rim_.half_edges[i]]
+                                : surface.corner_point[Surface::next(rim_.half_edges.back())];
+      place.at = builder_.position(place.point);
+      place.is_ready = !(options_.hold > 0) ||
+                       squared_distance(options_.front, place.at) >= options_.hold * options_.hold;
+      const auto known =
+          std::find_if(walls_.ends.begin(), walls_.ends.end(),
+                       [&](const LipWalls::End& end) { return end.point == place.point; });
+      if (known != walls_.ends.end() && is_still_there(*known))
+        place.end = static_cast<Index>(known - walls_.ends.begin());
+    }
+    for (std::size_t i = 0; i <= count(); ++i) places_[i].taper = turns_back(i) ? 0 : 1;
+  }
+
+  /// Whether the border at the end of a wall was not changed since.
+  [[nodiscard]] bool is_still_there(const LipWalls::End& end) const {
+    Index above = end.point;
+    for (Index r = 0; r < end.row_count; ++r) {
+      if (find_border(builder_.surface(), above, end.rows[r]) == kNone) return false;
+      above = end.rows[r];
+    }
+    return true;
+  }
+
+  /// @return whether the rim was rotated.
+  bool rotate_to_first() {
+    std::size_t first = 0;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < count(); ++i) {
+      if (!places_[i].is_tip()) continue;
+      const double squared = squared_distance(stroke_.front(), places_[i].at);
+      if (squared < nearest) nearest = squared, first = i;
+    }
+    if (!(nearest < std::numeric_limits<double>::infinity()))
+      while (first < count() && places_[first].is_ready) ++first;
+    if (first == 0 || first == count()) return false;
+    std::rotate(rim_.half_edges.begin(), rim_.half_edges.begin() + first, rim_.half_edges.end());
+    return true;
+  }
+
+  /// Distances along the rim, to the tips, and the taper that follows from them.
+  void measure() {
+    constexpr double kFar = std::numeric_limits<double>::infinity();
+    double tip = kFar;
+    const auto pass = [&](std::size_t i, double step) {
+      LipPlace& place = places_[i];
+      tip = place.is_tip() ? 0 : tip + step;
+      if (place.end != kNone) tip = std::min(tip, walls_.ends[place.end].to_tip);
+      place.to_tip = std::min(place.to_tip, tip);
+    };
+    for (LipPlace& place : places_) place.to_tip = kFar;
+    for (int round = 0; round < (rim_.is_closed ? 2 : 1); ++round) {
+      for (std::size_t i = 0; i <= count(); ++i) {
+        const double step = i > 0 ? norm(edge(i - 1)) : 0;
+        places_[i].along = i > 0 ? places_[i - 1].along + step : 0;
+        pass(i, step);
+      }
+      if (!rim_.is_closed) tip = kFar;
+    }
+    tip = kFar;
+    for (int round = 0; round < (rim_.is_closed ? 2 : 1); ++round)
+      for (std::size_t i = count() + 1; i-- > 0;) pass(i, i < count() ? norm(edge(i)) : 0);
+    for (LipPlace& place : places_) {
+      const double part = std::min(1.0, place.to_tip / options_.depth);
+      if (!place.is_tip()) place.taper = std::sqrt(part * (2 - part));
+    }
+  }
+
+  /// The direction in which the surface would go on across an edge.
+  [[nodiscard]] Vec3d outward(std::size_t i) const {
+    const Vec3d along = unit_or(edge(i), Vec3d::Zero());
+    return unit_or(Vec3d(along.cross(face_normal(i))), Vec3d::Zero());
+  }
+  [[nodiscard]] Vec3d face_normal(std::size_t i) const {
+    const Index face = rim_.half_edges[i] / 3;
+    const Index* points = &builder_.surface().corner_point[3 * face];
+    const Vec3d a = builder_.position(points[0]);
+    return Vec3d(builder_.position(points[1]) - a).cross(Vec3d(builder_.position(points[2]) - a));
+  }
+
+  void direct(LipPlace& place) {
+    const auto i = static_cast<std::size_t>(&place - places_.data());
+    const std::size_t in = before(i), out = after(i);
+    Vec3d across = Vec3d::Zero(), normal = Vec3d::Zero();
+    for (const std::size_t of : {in, out}) {
+      if (of == count()) continue;
+      across += outward(of);
+      normal += face_normal(of);
+    }
+    place.down = blade_direction(stroke_, place.at);
+    if (options_.all_layers && dot(normal, place.down) > 0) place.down = -place.down;
+    across -= dot(across, place.down) * place.down;
+    if (norm(across) > kLeastUnder) place.under = across / norm(across);
+  }
+
+  void find_lean() {
+    for (std::size_t i = 0; i < count(); ++i) limit_lean(i);
+    const auto smooth = [&](std::size_t i, std::size_t by) {
+      const double step = norm(Vec3d(places_[i].at - places_[by].at)) / lean_of(options_);
+      places_[i].lean = std::min(places_[i].lean, places_[by].lean + 0.5 * step);
+    };
+    for (int round = 0; round < (rim_.is_closed ? 2 : 1); ++round) {
+      for (std::size_t i = 1; i <= count(); ++i) smooth(i, i - 1);
+      if (rim_.is_closed) smooth(0, count());
+      for (std::size_t i = count(); i-- > 0;) smooth(i, i + 1);
+      if (rim_.is_closed) smooth(count(), 0);
+    }
+  }
+
+  /// Where the rim bends around the gap, walls that lean below the other lip come together. They
+  /// lean less where even the rows nearest to the lip would change places; lower ones may, because
+  /// they are out of sight there, below the wall of a nearer lip.
+  void limit_lean(std::size_t i) {
+    LipPlace &a = places_[i], &b = places_[i + 1];
+    const double length = norm(edge(i));
+    const double nearer = kFirstRow * lean_of(options_) *
+                          dot(Vec3d(a.under - b.under), unit_or(edge(i), Vec3d::Zero()));
+    if (!(nearer > 0)) return;
+    const double most = kMostShorterEdges * length / nearer;
+    a.lean = std::min(a.lean, most);
+    b.lean = std::min(b.lean, most);
+  }
+
+  /// Walls get half of the room below, and nowhere much more than next to it.
+  void find_room() {
+    const double depth = options_.depth, lean = lean_of(options_);
+    for (LipPlace& place : places_) {
+      if (!place.is_ready || place.end != kNone || place.is_tip()) continue;
+      const Vec3d straight = 2 * depth * place.down, leaning = straight + 2 * lean * place.under;
+      place.room = room_below(place.at, straight, walls_.submeshes, builder_.work());
+      if (lean > 0 && place.room > 0)
+        place.room =
+            std::min(place.room, room_below(place.at, leaning, walls_.submeshes, builder_.work()));
+      place.room = std::max(place.room, kLeastRoom);
+    }
+    for (std::size_t i = 1; i <= count(); ++i) limit(i, i - 1);
+    for (std::size_t i = count(); i-- > 0;) limit(i, i + 1);
+  }
+  void limit(std::size_t i, std::size_t by) {
+    if (places_[i].end != kNone || places_[by].is_tip()) return;
+    const double most =
+        places_[by].room + norm(Vec3d(places_[i].at - places_[by].at)) / options_.depth;
+    places_[i].room = std::min(places_[i].room, most);
+  }
+
+  Rim& rim_;
+  const Stroke& stroke_;
+  const LipWallOptions& options_;
+  const LipWalls& walls_;
+  WallBuilder& builder_;
+  ScratchVector<LipPlace> places_;
+};
+
+}  // namespace
+
+Index find_border(const Surface& surface, Index a, Index b) {
+  for (const Index h : {surface.find_half_edge(a, b), surface.find_half_edge(b, a)})
+    if (h != kNone && surface.twin[h] == kNone) return h;
+  return kNone;
+}
+
+double lean_of(const LipWallOptions& options) { return 0.5 * options.width + kLeanDepths * options.depth; }
+
+ScratchVector<LipPlace> lip_places(Rim& rim, const Stroke& stroke, const LipWallOptions& options,
+                                   const LipWalls& walls, WallBuilder& builder) {
+  return RimPlaces(rim, stroke, options, walls, builder).make();
+}
+
+}  // namespace sunder::tear

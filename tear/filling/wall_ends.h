@@ -1,0 +1,36 @@
+#pragma once
+
+#include <sunder/core/index.h>
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace sunder::tear {
+
+/// The submesh that a mesh got for a filling.
+struct FillingSubmesh {
+  Index mesh, submesh;
+};
+
+/// The walls that a stroke got so far. A plain value, so that a failing call can go back to a copy.
+struct LipWalls {
+  static constexpr std::size_t kMostRows = 7;
+  /// The end of a wall that goes on when the stroke does: the points below a point of the lip.
+  struct End {
+    Index point = kNone;
+    double along = 0;   ///< Its place along the rim, metres.
+    double to_tip = 0;  ///< Its distance from the nearest tip along the rim, metres.
+    Index row_count = 0;
+    std::array<Index, kMostRows> rows = {};
+  };
+  std::vector<End> ends;
+  std::vector<FillingSubmesh> submeshes;
+
+  void clear() {
+    ends.clear();
+    submeshes.clear();
+  }
+};
+
+}  // namespace sunder::tear
