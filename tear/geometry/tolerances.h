@@ -120,8 +120,8 @@ inline constexpr double kOtherLayerWidths = 2;
 // ---- Caps and walls.
 
 /// Smaller weights of inner points are left out, unless the largest one is not much larger. They
-/// are means over the whole rim, most of them too small for the weights of a file of 8 bits.
-inline constexpr double kLeastCapWeight = 1e-3;
+/// are means over the whole rim, most of them too small for a file whose weights have 8 bits.
+inline constexpr double kLeastCapWeight = 0x1p-8;
 inline constexpr double kLeastCapWeightByLargest = 0.1;
 /// A linear map whose determinant is below this fraction of its cubed norm has no inverse.
 inline constexpr double kNoInverseDeterminant = 1e-6;
