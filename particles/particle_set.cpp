@@ -129,7 +129,14 @@ std::span<const ParticleInfluences> ParticleSet::influences() const {
 std::span<const ParticleGradients> ParticleSet::gradients(const TornModel& model) {
   if (!data_->own) return data_->shared->gradients->known();
   try {
-    return data_->own->gradients->of(model.surface(), *data_->own);
+    Structure& structure = *data_->own;
+    if (structure.gradients->is_up_to_date(structure.points.count()))
+      return structure.gradients->known();
+    // A fork may be copying it.
+    const std::shared_ptr<particles::ForkLink> link = data_->fork.lock();
+    std::unique_lock<std::mutex> lock;
+    if (link) lock = std::unique_lock(link->mutex);
+    return structure.gradients->of(model.surface(), structure);
   } catch (const std::bad_alloc&) {
     return {};
   }

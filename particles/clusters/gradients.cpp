@@ -167,8 +167,7 @@ std::span<const ParticleGradients> Gradients::of(const Surface& surface,
   const Index count = structure.points.count();
   const auto known = static_cast<Index>(is_known_.size());
   // Nothing is written then, because a copy may be made on another thread.
-  if (is_wanted_ && unknown_.empty() && known == count && gradients_.size() == count)
-    return gradients_;
+  if (is_up_to_date(count)) return gradients_;
   const std::size_t come = count > known ? count - known : 0;
   // All memory is allocated first, so that forget() needs none.
   reserve_eighth(gradients_, count);

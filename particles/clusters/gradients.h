@@ -24,6 +24,11 @@ class Gradients {
   /// The result of the last of().
   [[nodiscard]] std::span<const ParticleGradients> known() const { return gradients_; }
   [[nodiscard]] std::size_t memory_bytes() const;
+  /// Whether the next of() has nothing to compute, and changes nothing.
+  [[nodiscard]] bool is_up_to_date(Index point_count) const {
+    return is_wanted_ && unknown_.empty() && is_known_.size() == point_count &&
+           gradients_.size() == point_count;
+  }
   /// One entry per point.
   std::span<const ParticleGradients> of(const Surface& surface, const Structure& structure);
 

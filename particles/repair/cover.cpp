@@ -23,26 +23,29 @@ ParticleInfluences influences_before(StructureEdit& edit, Index point) {
 
 }  // namespace
 
-void cover(StructureEdit& edit, Index point) {
-  if (edit.surface().point_corner[point] == kNone) return;
+Index cover(StructureEdit& edit, Index point) {
+  if (edit.surface().point_corner[point] == kNone) return 0;
   const auto covers = [](const ParticleMembership& membership) {
     return membership.reach < kUncoveredReach;
   };
-  if (std::ranges::any_of(edit.memberships(point), covers)) return;
+  if (std::ranges::any_of(edit.memberships(point), covers)) return 0;
   Structure& structure = edit.structure();
   const auto range = static_cast<float>(structure.report.range);
   const Index particle = edit.make_particle(point, range, influences_before(edit, point));
   SurfaceFront& front = structure.scratch.front;
   front.begin(structure.points.count(), range, structure.character.edge_length);
   front.add(point, 0.0f);
+  Index visited = 0;
   front.run(edit.other_ring(), [&](Index member, float distance, Index) {
     if (edit.may_join(member, particle)) edit.join(member, {particle, distance / range});
+    ++visited;
     return true;
   });
+  return visited;
 }
 
 void cover_taken_up(StructureEdit& edit) {
-  for (std::size_t i = 0; i < edit.taken_up_count(); ++i) cover(edit, edit.taken_up(i));
+  for (std::size_t i = 0; i < edit.taken_up_count(); ++i) (void)cover(edit, edit.taken_up(i));
 }
 
 }  // namespace sunder::particles

@@ -56,10 +56,10 @@ std::vector<Index> unreached_members(const StructureEdit& edit, Index particle) 
   return unreached;
 }
 
-void leave_unreached(StructureEdit& edit, Index particle, Index point) {
+Index leave_unreached(StructureEdit& edit, Index particle, Index point) {
   edit.keep_if(
       point, [&](const ParticleMembership& membership) { return membership.particle != particle; });
-  cover(edit, point);
+  return 1 + cover(edit, point);
 }
 
 }  // namespace sunder::particles

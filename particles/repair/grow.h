@@ -12,6 +12,7 @@ void begin_growing(StructureEdit& edit, Index particle);
 /// Members of a particle that the front did not reach, descending.
 [[nodiscard]] std::vector<Index> unreached_members(const StructureEdit& edit, Index particle);
 /// Takes a point from the particle. It gets another one if it needs one.
-void leave_unreached(StructureEdit& edit, Index particle, Index point);
+/// @return the number of points visited.
+Index leave_unreached(StructureEdit& edit, Index particle, Index point);
 
 }  // namespace sunder::particles

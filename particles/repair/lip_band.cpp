@@ -38,6 +38,8 @@ void visit(StructureEdit& edit, const LipChain& chain, const BandPoint& at) {
   join_lip_particles(edit, chain, at);
 }
 
+void spend(Index visited, Index& points) { points -= std::min(points, visited); }
+
 /// Continues the front from the lips. @param points  at most; reduced by those visited.
 void widen_front(StructureEdit& edit, Index& points) {
   Structure& structure = edit.structure();
@@ -49,10 +51,11 @@ void widen_front(StructureEdit& edit, Index& points) {
       const LipChain& chain = band.chains[beside.chain];
       if (distance < chain.depth) {
         visit(edit, chain, {point, chain.places[beside.place], distance});
-        cover(edit, point);
+        spend(cover(edit, point), points);  // thousands, where faces are small
       }
     }
-    return --points > 0;
+    spend(1, points);
+    return points > 0;
   });
 }
 
@@ -72,8 +75,8 @@ void grow(StructureEdit& edit, Index& points) {
   }
   if (!band.is_grown) band.unreached = unreached_members(edit, band.growing);
   band.is_grown = true;
-  for (; points > 0 && !band.unreached.empty(); --points) {
-    leave_unreached(edit, band.growing, band.unreached.back());
+  while (points > 0 && !band.unreached.empty()) {
+    spend(leave_unreached(edit, band.growing, band.unreached.back()), points);
     band.unreached.pop_back();
   }
   if (!band.unreached.empty()) return;

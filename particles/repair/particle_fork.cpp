@@ -51,8 +51,6 @@ Result<ParticleFork> ParticleFork::create(ParticleSet& set, const TornModel& mod
   if (model.is_in_stroke() || (!done.empty() && done.back().operation == 0))
     return refuse("a stroke is in progress");
   try {
-    // Drawing must not change what is copied meanwhile.
-    if (of.own) (void)of.own->gradients->of(model.surface(), *of.own);
     auto data = std::make_unique<Data>();
     data->link = std::make_shared<particles::ForkLink>();
     data->link->from = &of.now();

@@ -631,8 +631,8 @@ TEST_F(ContactUse, queries_share_the_trees_of_their_asset) {
   if (before > 0) {  // it is counted
     EXPECT_LT(test::live_bytes() - before, asset->memory_bytes().shared / 10);
   }
-  for (SurfaceQuery* query : {&of_one, &of_other})
-    ASSERT_TRUE(query->set_pose(*bind_pose(*character)));
+  for (SurfaceQuery* each : {&of_one, &of_other})
+    ASSERT_TRUE(each->set_pose(*bind_pose(*character)));
   const auto wanted = *of_one.find_nearest({2, 1, 0.5}),
              found = *of_other.find_nearest({2, 1, 0.5});
   ASSERT_TRUE(wanted && found);
