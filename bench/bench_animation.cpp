@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
-#include "bench/cpu_seconds.h"
-#include "bench/measure.h"
-#include "support/animated_rig.h"
-#include "support/random.h"
+#include "bench/harness/cpu_seconds.h"
+#include "bench/harness/measure.h"
+#include "support/machine/random.h"
+#include "support/models/animated_rig.h"
 
 namespace sunder::bench {
 namespace {

@@ -13,13 +13,13 @@
 #include <string>
 #include <vector>
 
-#include "bench/cpu_seconds.h"
-#include "bench/measure.h"
-#include "bench/tear_scene.h"
-#include "support/random.h"
+#include "bench/harness/cpu_seconds.h"
+#include "bench/harness/measure.h"
+#include "bench/tear/tear_scene.h"
+#include "support/machine/random.h"
 
 #if SUNDER_BENCH_EMBREE
-#include "bench/embree_peer.h"
+#include "bench/peers/embree_peer.h"
 #endif
 
 namespace sunder::bench {

@@ -10,14 +10,14 @@
 #include <string>
 #include <vector>
 
-#include "bench/import_helper_times.h"
-#include "bench/import_times.h"
-#include "bench/io_files.h"
-#include "bench/json_object.h"
-#include "bench/measure.h"
-#include "bench/process_times.h"
-#include "bench/robot_kinematics.h"
-#include "support/temporary_folder.h"
+#include "bench/harness/json_object.h"
+#include "bench/harness/measure.h"
+#include "bench/harness/process_times.h"
+#include "bench/io/import_helper_times.h"
+#include "bench/io/import_times.h"
+#include "bench/io/io_files.h"
+#include "bench/io/robot_kinematics.h"
+#include "support/machine/temporary_folder.h"
 
 namespace sunder::bench {
 namespace {

@@ -5,12 +5,12 @@
 #include <cstdio>
 #include <cstring>
 
-#include "bench/in_turns.h"
-#include "bench/json_object.h"
-#include "bench/particles_decompose.h"
-#include "bench/particles_repair.h"
-#include "bench/particles_steps.h"
-#include "bench/particles_surface.h"
+#include "bench/harness/in_turns.h"
+#include "bench/harness/json_object.h"
+#include "bench/particles/particles_decompose.h"
+#include "bench/particles/particles_repair.h"
+#include "bench/particles/particles_steps.h"
+#include "bench/particles/particles_surface.h"
 
 namespace sunder::bench {
 namespace {

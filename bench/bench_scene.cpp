@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "bench/scene_loop.h"
-#include "bench/scene_summary.h"
+#include "bench/scene/scene_loop.h"
+#include "bench/scene/scene_summary.h"
 
 namespace {
 

@@ -7,10 +7,10 @@
 #include <deque>
 #include <functional>
 
-#include "bench/json_object.h"
-#include "bench/measure.h"
-#include "bench/native_peers.h"
-#include "bench/skinning_scene.h"
+#include "bench/harness/json_object.h"
+#include "bench/harness/measure.h"
+#include "bench/peers/native_peers.h"
+#include "bench/skinning/skinning_scene.h"
 #include "samples/thread_pool.h"
 
 namespace sunder::bench {

@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "bench/measure.h"
-#include "bench/particles_loop.h"
+#include "bench/harness/measure.h"
+#include "bench/particles/particles_loop.h"
 
 namespace sunder::bench {
 namespace {

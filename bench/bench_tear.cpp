@@ -6,20 +6,20 @@
 
 #include <benchmark/benchmark.h>
 
-#include "bench/cut_figures.h"
-#include "bench/long_stroke.h"
-#include "bench/measure.h"
-#include "bench/model_memory.h"
-#include "bench/repeated_operation.h"
-#include "bench/tear_stages.h"
-#include "bench/tear_summary.h"
-#include "bench/touch_baseline.h"
+#include "bench/harness/measure.h"
+#include "bench/tear/cut_figures.h"
+#include "bench/tear/long_stroke.h"
+#include "bench/tear/model_memory.h"
+#include "bench/tear/repeated_operation.h"
+#include "bench/tear/tear_stages.h"
+#include "bench/tear/tear_summary.h"
+#include "bench/tear/touch_baseline.h"
 
 #if SUNDER_BENCH_CGAL
-#include "bench/cgal_peer.h"
+#include "bench/peers/cgal_peer.h"
 #endif
 #if SUNDER_BENCH_VTK
-#include "bench/vtk_peer.h"
+#include "bench/peers/vtk_peer.h"
 #endif
 
 namespace sunder::bench {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/transfer_figures.h"
-#include "support/rigs.h"
+#include "bench/transfer/transfer_figures.h"
+#include "support/models/rigs.h"
 #if SUNDER_BENCH_IO
 #include <sunder/io/character_file.h>
 #endif

@@ -11,11 +11,11 @@
 #include <sys/resource.h>
 #include <vector>
 
-#include "bench/json_object.h"
-#include "bench/measure.h"
-#include "bench/transfer_figures.h"
-#include "support/changed_surfaces.h"
-#include "support/rigs.h"
+#include "bench/harness/json_object.h"
+#include "bench/harness/measure.h"
+#include "bench/transfer/transfer_figures.h"
+#include "support/models/changed_surfaces.h"
+#include "support/models/rigs.h"
 #include "validation/random_rig.h"
 #if SUNDER_BENCH_IO
 #include <sunder/io/character_file.h>

@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <cstring>
 
-#include "bench/weights_output.h"
-#include "bench/weights_picture.h"
+#include "bench/weights/weights_output.h"
+#include "bench/weights/weights_picture.h"
 #include "tear/surface/mesh_vertices.h"
 
 namespace sunder::bench {

@@ -8,8 +8,8 @@
 
 #include "bench/stress/families.h"
 #include "bench/stress/steps.h"
-#include "support/random_operations.h"
-#include "support/shared_models.h"
+#include "support/models/random_operations.h"
+#include "support/models/shared_models.h"
 
 namespace sunder::stress {
 namespace {

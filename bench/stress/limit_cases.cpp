@@ -4,11 +4,11 @@
 
 #include "bench/stress/families.h"
 #include "bench/stress/steps.h"
-#include "support/allocation_count.h"
-#include "support/hard_operations.h"
-#include "support/random_operations.h"
-#include "support/rigs.h"
-#include "support/say.h"
+#include "support/machine/allocation_count.h"
+#include "support/machine/say.h"
+#include "support/models/hard_operations.h"
+#include "support/models/random_operations.h"
+#include "support/models/rigs.h"
 
 namespace sunder::stress {
 namespace {

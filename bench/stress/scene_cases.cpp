@@ -7,10 +7,10 @@
 
 #include "bench/stress/families.h"
 #include "bench/stress/steps.h"
-#include "support/random_operations.h"
-#include "support/rigs.h"
-#include "support/say.h"
-#include "support/torn_invariants.h"
+#include "support/machine/say.h"
+#include "support/models/random_operations.h"
+#include "support/models/rigs.h"
+#include "support/oracles/torn_invariants.h"
 
 namespace sunder::stress {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <set>
 
-#include "bench/json_object.h"
+#include "bench/harness/json_object.h"
 
 namespace sunder::stress {
 namespace {

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "support/face_quality.h"
-#include "support/random_operations.h"
-#include "support/say.h"
-#include "support/source_cover.h"
-#include "support/torn_invariants.h"
+#include "support/machine/say.h"
+#include "support/models/random_operations.h"
+#include "support/oracles/face_quality.h"
+#include "support/oracles/source_cover.h"
+#include "support/oracles/torn_invariants.h"
 
 namespace sunder::stress {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bench/stress/case_report.h"
-#include "support/random.h"
+#include "support/machine/random.h"
 
 namespace sunder::stress {
 

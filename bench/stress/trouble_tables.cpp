@@ -8,12 +8,12 @@
 #include <memory>
 #include <string>
 
-#include "bench/measure.h"
+#include "bench/harness/measure.h"
 #include "bench/stress/torn_subject.h"
-#include "support/hard_operations.h"
-#include "support/random_operations.h"
-#include "support/rigs.h"
-#include "support/torn_invariants.h"
+#include "support/models/hard_operations.h"
+#include "support/models/random_operations.h"
+#include "support/models/rigs.h"
+#include "support/oracles/torn_invariants.h"
 
 namespace sunder::stress {
 namespace {

@@ -6,9 +6,9 @@
 
 #include "bench/stress/families.h"
 #include "bench/stress/steps.h"
-#include "support/hard_operations.h"
-#include "support/random_operations.h"
-#include "support/rigs.h"
+#include "support/models/hard_operations.h"
+#include "support/models/random_operations.h"
+#include "support/models/rigs.h"
 
 namespace sunder::stress {
 namespace {

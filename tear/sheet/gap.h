@@ -97,6 +97,7 @@ ScratchVector<CellFace> faces_in_cell(CellSides& sides, std::span<const Index> s
       if (twin == kNone || seen.find(twin / 3) != kNone || !is_edge_in_cell(face, k, sides))
         continue;
       seen.insert(twin / 3, 0);
+      sides.editor().fetch(twin / 3);
       const CellSides::Places places = sides.places_of(twin / 3);
       visit({twin / 3, places, sides.is_surely_inside(sides.at(places))});
     }

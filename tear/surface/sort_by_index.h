@@ -19,11 +19,12 @@ void sort_by_index(ScratchVector<Item>& items, KeyOf key_of, ScratchMemory& memo
   const auto is_before = [&](const Item& a, const Item& b) { return key_of(a) < key_of(b); };
   if (std::is_sorted(items.begin(), items.end(), is_before)) return;
   const ScratchMemory::Frame memory_of_step(memory);
-  Index used = 0;  // the bits that any key has
-  for (const Item& item : items) used |= key_of(item);
+  Index differing = 0;  // the bits in which any two keys differ
+  for (const Item& item : items) differing |= key_of(item) ^ key_of(items.front());
   ScratchVector<Item> sorted(items, &memory);
   Item *from = items.data(), *to = sorted.data();
-  for (int shift = 0; shift < 32 && used >> shift != 0; shift += 8) {
+  for (int shift = 0; shift < 32; shift += 8) {
+    if ((differing >> shift & (kValues - 1)) == 0) continue;
     const auto place_of = [&](const Item& item) { return key_of(item) >> shift & (kValues - 1); };
     std::array<std::uint32_t, kValues> places = {};
     for (std::size_t i = 0; i < items.size(); ++i) ++places[place_of(from[i])];

@@ -16,9 +16,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "support/changed_surfaces.h"
-#include "support/rigs.h"
-#include "support/shared_models.h"
+#include "support/models/changed_surfaces.h"
+#include "support/models/rigs.h"
+#include "support/models/shared_models.h"
 
 namespace sunder {
 namespace {

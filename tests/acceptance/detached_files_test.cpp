@@ -12,12 +12,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "support/gltf_validator.h"
-#include "support/make_model.h"
-#include "support/model_state.h"
-#include "support/rigs.h"
-#include "support/shared_models.h"
-#include "support/temporary_folder.h"
+#include "support/machine/gltf_validator.h"
+#include "support/machine/temporary_folder.h"
+#include "support/models/make_model.h"
+#include "support/models/rigs.h"
+#include "support/models/shared_models.h"
+#include "support/oracles/model_state.h"
 
 namespace sunder {
 namespace {

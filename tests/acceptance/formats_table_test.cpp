@@ -21,9 +21,9 @@
 #include <assimp/scene.h>
 #include <gtest/gtest.h>
 
-#include "support/compressed_gltf.h"
-#include "support/shared_models.h"
-#include "support/temporary_folder.h"
+#include "support/machine/temporary_folder.h"
+#include "support/models/compressed_gltf.h"
+#include "support/models/shared_models.h"
 
 namespace sunder::test {
 namespace {

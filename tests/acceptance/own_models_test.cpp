@@ -1,6 +1,6 @@
 // The models of tests/data/rigged equal those that our own code generates, and have the features
 // for which tests use them.
-#include "support/own_models.h"
+#include "support/models/own_models.h"
 
 #include <sunder/io/character_file.h>
 #include <sunder/tear/topology.h>
@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include "support/shared_models.h"
-#include "support/temporary_folder.h"
+#include "support/machine/temporary_folder.h"
+#include "support/models/shared_models.h"
 
 namespace sunder {
 namespace {

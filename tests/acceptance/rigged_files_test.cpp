@@ -15,11 +15,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "support/gltf_validator.h"
-#include "support/rigs.h"
-#include "support/shared_models.h"
-#include "support/temporary_folder.h"
-#include "support/torn_invariants.h"
+#include "support/machine/gltf_validator.h"
+#include "support/machine/temporary_folder.h"
+#include "support/models/rigs.h"
+#include "support/models/shared_models.h"
+#include "support/oracles/torn_invariants.h"
 
 namespace sunder {
 namespace {

@@ -11,11 +11,11 @@
 
 #include <gtest/gtest.h>
 
-#include "support/gltf_tools.h"
-#include "support/rigs.h"
-#include "support/shared_models.h"
-#include "support/temporary_folder.h"
-#include "support/weld_vertices.h"
+#include "support/machine/gltf_tools.h"
+#include "support/machine/temporary_folder.h"
+#include "support/models/rigs.h"
+#include "support/models/shared_models.h"
+#include "support/oracles/weld_vertices.h"
 
 namespace sunder {
 namespace {

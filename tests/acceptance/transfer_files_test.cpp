@@ -10,9 +10,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "support/changed_surfaces.h"
-#include "support/shared_models.h"
-#include "support/temporary_folder.h"
+#include "support/machine/temporary_folder.h"
+#include "support/models/changed_surfaces.h"
+#include "support/models/shared_models.h"
 
 namespace sunder {
 namespace {

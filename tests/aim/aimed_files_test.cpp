@@ -19,9 +19,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "support/rigs.h"
-#include "support/shared_models.h"
-#include "support/torn_invariants.h"
+#include "support/models/rigs.h"
+#include "support/models/shared_models.h"
+#include "support/oracles/torn_invariants.h"
 
 namespace sunder {
 namespace {

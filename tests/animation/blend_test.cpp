@@ -8,9 +8,9 @@
 
 #include <gtest/gtest.h>
 
-#include "support/allocation_count.h"
-#include "support/random.h"
-#include "support/rigs.h"
+#include "support/machine/allocation_count.h"
+#include "support/machine/random.h"
+#include "support/models/rigs.h"
 
 namespace sunder::test {
 namespace {

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/random.h"
+#include "support/machine/random.h"
 
 namespace sunder::test {
 namespace {

@@ -14,12 +14,12 @@
 
 #include <gtest/gtest.h>
 
-#include "support/gltf_builder.h"
-#include "support/gltf_validator.h"
-#include "support/random.h"
-#include "support/rigs.h"
-#include "support/shared_models.h"
-#include "support/temporary_folder.h"
+#include "support/machine/gltf_validator.h"
+#include "support/machine/random.h"
+#include "support/machine/temporary_folder.h"
+#include "support/models/gltf_builder.h"
+#include "support/models/rigs.h"
+#include "support/models/shared_models.h"
 
 namespace sunder::test {
 namespace {

@@ -12,8 +12,8 @@
 #include <gtest/gtest.h>
 
 #include "binding/binding_rigs.h"
-#include "support/changed_surfaces.h"
-#include "support/rigs.h"
+#include "support/models/changed_surfaces.h"
+#include "support/models/rigs.h"
 
 namespace sunder {
 namespace {

@@ -10,9 +10,9 @@
 
 #include <gtest/gtest.h>
 
-#include "support/random.h"
-#include "support/rigs.h"
-#include "support/solids.h"
+#include "support/machine/random.h"
+#include "support/models/rigs.h"
+#include "support/models/solids.h"
 
 namespace sunder {
 namespace {

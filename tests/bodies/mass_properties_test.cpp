@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include "support/random.h"
-#include "support/solids.h"
+#include "support/machine/random.h"
+#include "support/models/solids.h"
 
 namespace sunder {
 namespace {

@@ -11,12 +11,12 @@
 
 #include <gtest/gtest.h>
 
-#include "support/allocation_count.h"
-#include "support/contact_oracle.h"
-#include "support/make_model.h"
-#include "support/random_operations.h"
-#include "support/rigs.h"
-#include "support/stress.h"
+#include "support/machine/allocation_count.h"
+#include "support/machine/stress.h"
+#include "support/models/make_model.h"
+#include "support/models/random_operations.h"
+#include "support/models/rigs.h"
+#include "support/oracles/contact_oracle.h"
 
 namespace sunder {
 namespace {

@@ -11,9 +11,9 @@
 
 #include <gtest/gtest.h>
 
-#include "support/contact_oracle.h"
-#include "support/rigs.h"
-#include "support/shared_models.h"
+#include "support/models/rigs.h"
+#include "support/models/shared_models.h"
+#include "support/oracles/contact_oracle.h"
 
 namespace sunder::test {
 namespace {

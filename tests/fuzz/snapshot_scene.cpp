@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <utility>
 
-#include "support/rigs.h"
+#include "support/models/rigs.h"
 
 namespace sunder::fuzz {
 namespace {

@@ -11,7 +11,7 @@
 #include "fuzz/snapshot_scene.h"
 #include "io/faulty_documents.h"
 #include "io/import_messages/reply.h"
-#include "support/gltf_builder.h"
+#include "support/models/gltf_builder.h"
 
 namespace {
 

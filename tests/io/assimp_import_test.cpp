@@ -10,9 +10,9 @@
 
 #include "io/assimp_text_models.h"
 #include "io/contained_import/import_as_glb.h"
-#include "support/gltf_validator.h"
-#include "support/shared_models.h"
-#include "support/temporary_folder.h"
+#include "support/machine/gltf_validator.h"
+#include "support/machine/temporary_folder.h"
+#include "support/models/shared_models.h"
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define SUNDER_UNDER_SANITIZER 1

@@ -19,8 +19,8 @@
 
 #include "io/assimp_text_models.h"
 #include "skinning/internal/reference.h"
-#include "support/shared_models.h"
-#include "support/temporary_folder.h"
+#include "support/machine/temporary_folder.h"
+#include "support/models/shared_models.h"
 
 namespace sunder {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "support/gltf_builder.h"
-#include "support/shared_models.h"
-#include "support/temporary_folder.h"
+#include "support/machine/temporary_folder.h"
+#include "support/models/gltf_builder.h"
+#include "support/models/shared_models.h"
 
 namespace sunder::test {
 namespace {

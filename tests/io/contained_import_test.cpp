@@ -24,8 +24,8 @@
 #include "io/contained_import/import_as_glb.h"
 #include "io/contained_import/memory_limit.h"
 #include "io/import_helper/sandbox.h"
-#include "support/shared_models.h"
-#include "support/temporary_folder.h"
+#include "support/machine/temporary_folder.h"
+#include "support/models/shared_models.h"
 
 namespace sunder {
 namespace {

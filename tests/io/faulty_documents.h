@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "support/gltf_builder.h"
+#include "support/models/gltf_builder.h"
 
 namespace sunder::test {
 

@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include "io/gltf/parse_json.h"
-#include "support/random.h"
-#include "support/shared_models.h"
-#include "support/temporary_folder.h"
+#include "support/machine/random.h"
+#include "support/machine/temporary_folder.h"
+#include "support/models/shared_models.h"
 
 namespace sunder::test {
 namespace {

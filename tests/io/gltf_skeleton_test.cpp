@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/gltf_builder.h"
+#include "support/models/gltf_builder.h"
 
 namespace sunder::test {
 namespace {

@@ -11,8 +11,8 @@
 #include "io/assimp_text_models.h"
 #include "io/contained_import/import_as_glb.h"
 #include "io/import_checks/check_text.h"
-#include "support/shared_models.h"
-#include "support/temporary_folder.h"
+#include "support/machine/temporary_folder.h"
+#include "support/models/shared_models.h"
 
 namespace sunder {
 namespace {

@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "support/gltf_builder.h"
-#include "support/temporary_folder.h"
+#include "support/machine/temporary_folder.h"
+#include "support/models/gltf_builder.h"
 
 namespace sunder::test {
 namespace {

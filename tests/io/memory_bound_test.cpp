@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "support/gltf_builder.h"
-#include "support/peak_memory.h"
-#include "support/temporary_folder.h"
+#include "support/machine/peak_memory.h"
+#include "support/machine/temporary_folder.h"
+#include "support/models/gltf_builder.h"
 
 namespace sunder::test {
 namespace {

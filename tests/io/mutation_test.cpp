@@ -13,12 +13,12 @@
 #include <gtest/gtest.h>
 
 #include "io/assimp_text_models.h"
-#include "support/gltf_validator.h"
-#include "support/peak_memory.h"
-#include "support/shared_models.h"
-#include "support/stress.h"
-#include "support/temporary_folder.h"
-#include "support/watchdog.h"
+#include "support/machine/gltf_validator.h"
+#include "support/machine/peak_memory.h"
+#include "support/machine/stress.h"
+#include "support/machine/temporary_folder.h"
+#include "support/machine/watchdog.h"
+#include "support/models/shared_models.h"
 
 namespace sunder::test {
 namespace {

@@ -11,8 +11,8 @@
 
 #include <gtest/gtest.h>
 
-#include "support/random.h"
-#include "support/temporary_folder.h"
+#include "support/machine/random.h"
+#include "support/machine/temporary_folder.h"
 
 namespace sunder {
 namespace {

@@ -7,9 +7,9 @@
 
 #include <gtest/gtest.h>
 
-#include "support/make_model.h"
-#include "support/model_state.h"
-#include "support/rigs.h"
+#include "support/models/make_model.h"
+#include "support/models/rigs.h"
+#include "support/oracles/model_state.h"
 
 namespace sunder {
 namespace {

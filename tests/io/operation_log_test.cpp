@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "support/temporary_folder.h"
+#include "support/machine/temporary_folder.h"
 
 namespace sunder {
 namespace {

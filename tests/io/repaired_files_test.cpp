@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "io/faulty_documents.h"
-#include "support/gltf_validator.h"
-#include "support/shared_models.h"
-#include "support/temporary_folder.h"
+#include "support/machine/gltf_validator.h"
+#include "support/machine/temporary_folder.h"
+#include "support/models/shared_models.h"
 
 namespace sunder::test {
 namespace {

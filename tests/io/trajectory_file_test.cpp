@@ -8,8 +8,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "support/random.h"
-#include "support/temporary_folder.h"
+#include "support/machine/random.h"
+#include "support/machine/temporary_folder.h"
 
 namespace sunder {
 namespace {

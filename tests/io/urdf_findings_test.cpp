@@ -15,8 +15,8 @@
 #include <gtest/gtest.h>
 
 #include "io/urdf/finding_kinds.h"
-#include "support/shared_models.h"
-#include "support/temporary_folder.h"
+#include "support/machine/temporary_folder.h"
+#include "support/models/shared_models.h"
 
 namespace sunder::test {
 namespace {

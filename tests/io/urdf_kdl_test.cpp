@@ -17,9 +17,9 @@
 
 #include <gtest/gtest.h>
 
-#include "support/random_robot.h"
-#include "support/shared_models.h"
-#include "support/temporary_folder.h"
+#include "support/machine/temporary_folder.h"
+#include "support/models/random_robot.h"
+#include "support/models/shared_models.h"
 
 namespace sunder::test {
 namespace {

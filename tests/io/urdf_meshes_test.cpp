@@ -16,10 +16,10 @@
 
 #include "io/internal/base_colours.h"
 #include "io/urdf/finding_kinds.h"
-#include "support/gltf_validator.h"
-#include "support/random_robot.h"
-#include "support/shared_models.h"
-#include "support/temporary_folder.h"
+#include "support/machine/gltf_validator.h"
+#include "support/machine/temporary_folder.h"
+#include "support/models/random_robot.h"
+#include "support/models/shared_models.h"
 
 namespace sunder::test {
 namespace {

@@ -12,11 +12,11 @@
 
 #include <gtest/gtest.h>
 
-#include "support/random.h"
-#include "support/random_robot.h"
-#include "support/shared_models.h"
-#include "support/stress.h"
-#include "support/temporary_folder.h"
+#include "support/machine/random.h"
+#include "support/machine/stress.h"
+#include "support/machine/temporary_folder.h"
+#include "support/models/random_robot.h"
+#include "support/models/shared_models.h"
 
 namespace sunder::test {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/rigs.h"
+#include "support/models/rigs.h"
 
 // In this build only its name is declared.
 class btDynamicsWorld {};

@@ -12,7 +12,7 @@
 #include <btBulletDynamicsCommon.h>
 #include <gtest/gtest.h>
 
-#include "support/rigs.h"
+#include "support/models/rigs.h"
 
 namespace sunder {
 namespace {

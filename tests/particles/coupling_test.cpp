@@ -5,7 +5,7 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
-#include "support/random.h"
+#include "support/machine/random.h"
 
 namespace sunder {
 namespace {

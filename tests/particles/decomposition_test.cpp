@@ -12,11 +12,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "support/make_model.h"
-#include "support/particle_laws.h"
-#include "support/rigs.h"
-#include "support/stress.h"
-#include "support/surface_distances.h"
+#include "support/machine/stress.h"
+#include "support/models/make_model.h"
+#include "support/models/rigs.h"
+#include "support/oracles/particle_laws.h"
+#include "support/oracles/surface_distances.h"
 #include "tear/internal/surface.h"
 
 namespace sunder {

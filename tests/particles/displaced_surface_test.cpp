@@ -1,6 +1,6 @@
 // Normals and tangents of displaced surfaces, compared with their faces.
 
-#include "support/displaced_surface.h"
+#include "support/oracles/displaced_surface.h"
 
 #include <algorithm>
 

@@ -13,8 +13,8 @@
 #include <gtest/gtest.h>
 
 #include "particles/soft_scene.h"
-#include "support/model_state.h"
-#include "support/rigs.h"
+#include "support/models/rigs.h"
+#include "support/oracles/model_state.h"
 
 namespace sunder {
 namespace {

@@ -9,8 +9,8 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
-#include "support/random_operations.h"
-#include "support/rigs.h"
+#include "support/models/random_operations.h"
+#include "support/models/rigs.h"
 #include "tear/internal/surface.h"
 
 namespace sunder::test {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "particles/soft_scene.h"
-#include "support/random_operations.h"
+#include "support/models/random_operations.h"
 #include "tear/internal/surface.h"
 
 namespace sunder {

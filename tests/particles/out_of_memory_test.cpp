@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "particles/soft_scene.h"
-#include "support/allocation_count.h"
+#include "support/machine/allocation_count.h"
 
 namespace sunder {
 namespace {

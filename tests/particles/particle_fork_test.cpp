@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "particles/soft_scene.h"
-#include "support/random_operations.h"
+#include "support/models/random_operations.h"
 
 namespace sunder {
 namespace {

@@ -12,10 +12,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "support/particle_laws.h"
-#include "support/random_operations.h"
-#include "support/rigs.h"
-#include "support/shared_models.h"
+#include "support/models/random_operations.h"
+#include "support/models/rigs.h"
+#include "support/models/shared_models.h"
+#include "support/oracles/particle_laws.h"
 
 namespace sunder {
 namespace {

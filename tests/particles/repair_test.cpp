@@ -12,12 +12,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "support/make_model.h"
-#include "support/particle_laws.h"
-#include "support/random_operations.h"
-#include "support/rigs.h"
-#include "support/say.h"
-#include "support/stress.h"
+#include "support/machine/say.h"
+#include "support/machine/stress.h"
+#include "support/models/make_model.h"
+#include "support/models/random_operations.h"
+#include "support/models/rigs.h"
+#include "support/oracles/particle_laws.h"
 #include "tear/internal/surface.h"
 
 namespace sunder {

@@ -9,12 +9,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "support/allocation_count.h"
-#include "support/make_model.h"
-#include "support/particle_laws.h"
-#include "support/random_operations.h"
-#include "support/rigs.h"
-#include "support/stress.h"
+#include "support/machine/allocation_count.h"
+#include "support/machine/stress.h"
+#include "support/models/make_model.h"
+#include "support/models/random_operations.h"
+#include "support/models/rigs.h"
+#include "support/oracles/particle_laws.h"
 
 namespace sunder {
 namespace {

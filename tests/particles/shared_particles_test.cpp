@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "particles/soft_scene.h"
-#include "support/particle_laws.h"
-#include "support/random_operations.h"
+#include "support/models/random_operations.h"
+#include "support/oracles/particle_laws.h"
 
 namespace sunder {
 namespace {

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "particles/soft_scene.h"
-#include "support/allocation_count.h"
+#include "support/machine/allocation_count.h"
 
 namespace sunder {
 namespace {

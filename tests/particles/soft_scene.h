@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/rigs.h"
+#include "support/models/rigs.h"
 
 namespace sunder::test {
 

@@ -9,10 +9,10 @@
 
 #include <gtest/gtest.h>
 
-#include "support/make_model.h"
-#include "support/rigs.h"
-#include "support/stress.h"
-#include "support/surface_distances.h"
+#include "support/machine/stress.h"
+#include "support/models/make_model.h"
+#include "support/models/rigs.h"
+#include "support/oracles/surface_distances.h"
 #include "tear/internal/surface.h"
 
 namespace sunder::particles {

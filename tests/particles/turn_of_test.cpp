@@ -3,7 +3,7 @@
 #include <Eigen/SVD>
 #include <gtest/gtest.h>
 
-#include "support/random.h"
+#include "support/machine/random.h"
 
 namespace sunder {
 namespace {

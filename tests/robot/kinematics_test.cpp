@@ -11,8 +11,8 @@
 #include <gtest/gtest.h>
 
 #include "robot/internal/planar_axes.h"
-#include "support/allocation_count.h"
-#include "support/random.h"
+#include "support/machine/allocation_count.h"
+#include "support/machine/random.h"
 
 namespace sunder::test {
 namespace {

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "robot/planar_arm.h"
-#include "support/rigs.h"
+#include "support/models/rigs.h"
 
 namespace sunder {
 namespace {

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "robot/planar_arm.h"
-#include "support/random.h"
+#include "support/machine/random.h"
 
 namespace sunder {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "support/rigs.h"
-#include "support/starve.h"
+#include "support/machine/starve.h"
+#include "support/models/rigs.h"
 
 namespace sunder {
 namespace {

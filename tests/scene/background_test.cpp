@@ -10,8 +10,8 @@
 
 #include <gtest/gtest.h>
 
-#include "support/random_operations.h"
-#include "support/rigs.h"
+#include "support/models/random_operations.h"
+#include "support/models/rigs.h"
 
 namespace sunder {
 namespace {

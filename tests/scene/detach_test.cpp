@@ -11,8 +11,8 @@
 
 #include <gtest/gtest.h>
 
-#include "support/random.h"
-#include "support/rigs.h"
+#include "support/machine/random.h"
+#include "support/models/rigs.h"
 
 namespace sunder {
 namespace {

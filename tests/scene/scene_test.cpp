@@ -11,10 +11,10 @@
 
 #include <gtest/gtest.h>
 
-#include "support/allocation_count.h"
-#include "support/random_operations.h"
-#include "support/rigs.h"
-#include "support/stress.h"
+#include "support/machine/allocation_count.h"
+#include "support/machine/stress.h"
+#include "support/models/random_operations.h"
+#include "support/models/rigs.h"
 
 namespace sunder {
 namespace {

@@ -7,9 +7,9 @@
 
 #include <gtest/gtest.h>
 
-#include "support/random_operations.h"
-#include "support/rigs.h"
-#include "support/stress.h"
+#include "support/machine/stress.h"
+#include "support/models/random_operations.h"
+#include "support/models/rigs.h"
 
 namespace sunder {
 namespace {

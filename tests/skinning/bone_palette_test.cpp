@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "support/random_skin.h"
-#include "support/rigs.h"
+#include "support/models/random_skin.h"
+#include "support/models/rigs.h"
 
 namespace sunder {
 namespace {

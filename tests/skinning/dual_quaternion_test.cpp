@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "skinning/internal/reference.h"
-#include "support/posed_arrays.h"
-#include "support/random_skin.h"
+#include "support/models/posed_arrays.h"
+#include "support/models/random_skin.h"
 
 namespace sunder {
 namespace {

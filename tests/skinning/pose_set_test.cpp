@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include "support/allocation_count.h"
-#include "support/rigs.h"
+#include "support/machine/allocation_count.h"
+#include "support/models/rigs.h"
 
 namespace sunder {
 namespace {

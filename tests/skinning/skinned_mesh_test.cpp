@@ -12,10 +12,10 @@
 #include <gtest/gtest.h>
 
 #include "skinning/internal/reference.h"
-#include "support/backward_threads.h"
-#include "support/posed_arrays.h"
-#include "support/random_skin.h"
-#include "support/stress.h"
+#include "support/machine/backward_threads.h"
+#include "support/machine/stress.h"
+#include "support/models/posed_arrays.h"
+#include "support/models/random_skin.h"
 
 namespace sunder {
 namespace {

@@ -12,11 +12,11 @@
 #include <gtest/gtest.h>
 
 #include "skinning/internal/reference.h"
-#include "support/allocation_count.h"
-#include "support/backward_threads.h"
-#include "support/posed_arrays.h"
-#include "support/random_skin.h"
-#include "support/stress.h"
+#include "support/machine/allocation_count.h"
+#include "support/machine/backward_threads.h"
+#include "support/machine/stress.h"
+#include "support/models/posed_arrays.h"
+#include "support/models/random_skin.h"
 
 namespace sunder {
 namespace {

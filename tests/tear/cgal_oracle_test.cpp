@@ -19,12 +19,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "support/clip_oracle.h"
-#include "support/make_model.h"
-#include "support/rigs.h"
-#include "support/shared_models.h"
-#include "support/stress.h"
-#include "support/torn_invariants.h"
+#include "support/machine/stress.h"
+#include "support/models/make_model.h"
+#include "support/models/rigs.h"
+#include "support/models/shared_models.h"
+#include "support/oracles/clip_oracle.h"
+#include "support/oracles/torn_invariants.h"
 
 namespace sunder {
 namespace {

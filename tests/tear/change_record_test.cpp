@@ -10,11 +10,11 @@
 
 #include <gtest/gtest.h>
 
-#include "support/make_model.h"
-#include "support/model_state.h"
-#include "support/random_operations.h"
-#include "support/rigs.h"
-#include "support/stress.h"
+#include "support/machine/stress.h"
+#include "support/models/make_model.h"
+#include "support/models/random_operations.h"
+#include "support/models/rigs.h"
+#include "support/oracles/model_state.h"
 
 namespace sunder {
 namespace {

@@ -1,5 +1,5 @@
 // Checks the reference for gaps and bores on areas that are known.
-#include "support/clip_oracle.h"
+#include "support/oracles/clip_oracle.h"
 
 #include <sunder/skinning/deform.h>
 #include <sunder/skinning/pose.h>
@@ -9,8 +9,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "support/rigs.h"
-#include "support/source_cover.h"
+#include "support/models/rigs.h"
+#include "support/oracles/source_cover.h"
 
 namespace sunder {
 namespace {

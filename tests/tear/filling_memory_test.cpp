@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "core/internal/ordered.h"
-#include "support/allocation_count.h"
-#include "support/rigs.h"
+#include "support/machine/allocation_count.h"
+#include "support/models/rigs.h"
 #include "tear/filling/bore_wall.h"
 #include "tear/filling/caps.h"
 #include "tear/filling/lip_walls.h"

@@ -7,9 +7,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "support/random.h"
-#include "support/rigs.h"
-#include "support/say.h"
+#include "support/machine/random.h"
+#include "support/machine/say.h"
+#include "support/models/rigs.h"
 #include "tear/geometry/face_shape.h"
 #include "tear/geometry/tolerances.h"
 #include "tear/internal/surface.h"

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "support/random.h"
-#include "support/rigs.h"
+#include "support/machine/random.h"
+#include "support/models/rigs.h"
 
 namespace sunder {
 namespace {

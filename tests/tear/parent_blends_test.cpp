@@ -9,9 +9,9 @@
 
 #include <gtest/gtest.h>
 
-#include "support/make_model.h"
-#include "support/random_operations.h"
-#include "support/rigs.h"
+#include "support/models/make_model.h"
+#include "support/models/random_operations.h"
+#include "support/models/rigs.h"
 
 namespace sunder {
 namespace {

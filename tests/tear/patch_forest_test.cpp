@@ -14,10 +14,10 @@
 #include <gtest/gtest.h>
 
 #include "skinning/internal/reference.h"
-#include "support/random_operations.h"
-#include "support/rigs.h"
-#include "support/say.h"
-#include "support/surface_scans.h"
+#include "support/machine/say.h"
+#include "support/models/random_operations.h"
+#include "support/models/rigs.h"
+#include "support/oracles/surface_scans.h"
 #include "tear/internal/surface.h"
 #include "tear/operation/cut.h"
 #include "tear/operation/drill.h"

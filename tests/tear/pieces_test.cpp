@@ -11,9 +11,9 @@
 
 #include <gtest/gtest.h>
 
-#include "support/make_model.h"
-#include "support/rigs.h"
-#include "support/stress.h"
+#include "support/machine/stress.h"
+#include "support/models/make_model.h"
+#include "support/models/rigs.h"
 
 namespace sunder {
 namespace {

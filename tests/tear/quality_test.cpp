@@ -6,10 +6,10 @@
 
 #include <gmock/gmock.h>
 
-#include "support/face_quality.h"
-#include "support/rigs.h"
-#include "support/stress.h"
-#include "support/torn_invariants.h"
+#include "support/machine/stress.h"
+#include "support/models/rigs.h"
+#include "support/oracles/face_quality.h"
+#include "support/oracles/torn_invariants.h"
 #include "tear/geometry/tolerances.h"
 
 namespace sunder {

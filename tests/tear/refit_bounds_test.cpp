@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/rigs.h"
+#include "support/models/rigs.h"
 
 namespace sunder::tear {
 namespace {

@@ -9,11 +9,11 @@
 
 #include <gtest/gtest.h>
 
-#include "support/animated_rig.h"
-#include "support/refit_gains.h"
-#include "support/rigs.h"
-#include "support/stress.h"
-#include "support/torn_invariants.h"
+#include "support/machine/stress.h"
+#include "support/models/animated_rig.h"
+#include "support/models/rigs.h"
+#include "support/oracles/refit_gains.h"
+#include "support/oracles/torn_invariants.h"
 
 namespace sunder {
 namespace {

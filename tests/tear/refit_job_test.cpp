@@ -9,10 +9,10 @@
 
 #include <gtest/gtest.h>
 
-#include "support/coupled.h"
-#include "support/make_model.h"
-#include "support/rigs.h"
-#include "support/torn_invariants.h"
+#include "support/models/make_model.h"
+#include "support/models/rigs.h"
+#include "support/oracles/coupled.h"
+#include "support/oracles/torn_invariants.h"
 
 namespace sunder {
 namespace {

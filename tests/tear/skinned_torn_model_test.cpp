@@ -7,9 +7,9 @@
 
 #include <gtest/gtest.h>
 
-#include "support/allocation_count.h"
-#include "support/posed_arrays.h"
-#include "support/rigs.h"
+#include "support/machine/allocation_count.h"
+#include "support/models/posed_arrays.h"
+#include "support/models/rigs.h"
 
 namespace sunder {
 namespace {

@@ -1,12 +1,12 @@
 #include "tear/surface/sort_by_index.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <utility>
 #include <vector>
 
-#include "support/random.h"
+#include <gtest/gtest.h>
+
+#include "support/machine/random.h"
 
 namespace sunder::tear {
 namespace {
@@ -38,7 +38,9 @@ TEST(SortByIndex, takes_no_memory_for_what_is_in_order) {
   ScratchVector<Index> items(&memory);
   for (Index i = 0; i < 1000; ++i) items.push_back(i);
   const std::size_t before = memory.bytes();
-  for (int i = 0; i < 100; ++i) sort_by_index(items, [](Index item) { return item; }, memory);
+  for (int i = 0; i < 100; ++i)
+    sort_by_index(
+        items, [](Index item) { return item; }, memory);
   EXPECT_EQ(memory.bytes(), before);
 }
 

@@ -6,9 +6,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "support/rigs.h"
-#include "support/stress.h"
-#include "support/torn_invariants.h"
+#include "support/machine/stress.h"
+#include "support/models/rigs.h"
+#include "support/oracles/torn_invariants.h"
 
 namespace sunder {
 namespace {

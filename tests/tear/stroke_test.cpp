@@ -10,12 +10,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "support/make_model.h"
-#include "support/model_state.h"
-#include "support/random_operations.h"
-#include "support/rigs.h"
-#include "support/stress.h"
-#include "support/torn_invariants.h"
+#include "support/machine/stress.h"
+#include "support/models/make_model.h"
+#include "support/models/random_operations.h"
+#include "support/models/rigs.h"
+#include "support/oracles/model_state.h"
+#include "support/oracles/torn_invariants.h"
 
 namespace sunder {
 namespace {

@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include "support/make_model.h"
-#include "support/rigs.h"
+#include "support/models/make_model.h"
+#include "support/models/rigs.h"
 #include "tear/internal/surface.h"
 
 namespace sunder {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/rigs.h"
+#include "support/models/rigs.h"
 
 namespace sunder {
 namespace {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <set>
 
-#include "support/gltf_validator.h"
-#include "support/rigs.h"
+#include "support/machine/gltf_validator.h"
+#include "support/models/rigs.h"
 #include "tools/command_fixture.h"
 
 namespace sunder::command_test {

@@ -13,9 +13,9 @@
 #include <tuple>
 
 #include "skinning/internal/reference.h"
-#include "support/gltf_validator.h"
-#include "support/rigs.h"
-#include "support/shared_models.h"
+#include "support/machine/gltf_validator.h"
+#include "support/models/rigs.h"
+#include "support/models/shared_models.h"
 #include "tools/command_fixture.h"
 
 namespace sunder::command_test {

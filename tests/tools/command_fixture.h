@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "support/temporary_folder.h"
+#include "support/machine/temporary_folder.h"
 #include "tools/demo/demo_rig.h"
 #include "tools/run_command.h"
 

@@ -13,7 +13,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "support/temporary_folder.h"
+#include "support/machine/temporary_folder.h"
 #include "tools/command_line/listed_options.h"
 #include "tools/run_command.h"
 

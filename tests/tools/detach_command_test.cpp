@@ -1,6 +1,6 @@
 // `sunder tear --pieces`: detached pieces as files.
 
-#include "support/gltf_validator.h"
+#include "support/machine/gltf_validator.h"
 #include "tools/command_fixture.h"
 
 namespace sunder::command_test {

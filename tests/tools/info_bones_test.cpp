@@ -7,7 +7,7 @@
 #include <map>
 #include <sstream>
 
-#include "support/shared_models.h"
+#include "support/models/shared_models.h"
 #include "tools/command_fixture.h"
 
 namespace sunder::command_test {

@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include "support/gltf_validator.h"
-#include "support/temporary_folder.h"
+#include "support/machine/gltf_validator.h"
+#include "support/machine/temporary_folder.h"
 #include "tools/demo/demo_rig.h"
 
 namespace sunder {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <map>
 
-#include "support/gltf_validator.h"
-#include "support/shared_models.h"
+#include "support/machine/gltf_validator.h"
+#include "support/models/shared_models.h"
 #include "tools/command_fixture.h"
 
 namespace sunder::command_test {

@@ -2,7 +2,7 @@
 
 #include <cstdlib>
 
-#include "support/gltf_builder.h"
+#include "support/models/gltf_builder.h"
 #include "tools/command_fixture.h"
 #include "tools/picture_pixels.h"
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <zlib.h>
 
-#include "support/temporary_folder.h"
+#include "support/machine/temporary_folder.h"
 
 namespace sunder::test {
 namespace {

@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include "support/random.h"
-#include "support/temporary_folder.h"
+#include "support/machine/random.h"
+#include "support/machine/temporary_folder.h"
 #include "tools/render/image.h"
 #include "tools/render/palette.h"
 #include "tools/render/png_file.h"

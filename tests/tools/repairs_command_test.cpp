@@ -1,7 +1,7 @@
 // The commands' messages about models with faults: they warn of what loading repaired or dropped,
 // and refuse such models with --strict.
 
-#include "support/gltf_builder.h"
+#include "support/models/gltf_builder.h"
 #include "tools/command_fixture.h"
 
 namespace sunder::command_test {

@@ -2,7 +2,7 @@
 
 #include <sunder/robot/trajectory.h>
 
-#include "support/shared_models.h"
+#include "support/models/shared_models.h"
 #include "tools/command_fixture.h"
 
 namespace sunder::command_test {

@@ -7,7 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "support/temporary_folder.h"
+#include "support/machine/temporary_folder.h"
 
 namespace sunder::test {
 namespace {

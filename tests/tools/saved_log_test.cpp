@@ -1,6 +1,6 @@
 // The log that `sunder tear --save-log` writes gives the same model again.
 
-#include "support/shared_models.h"
+#include "support/models/shared_models.h"
 #include "tools/command_fixture.h"
 
 namespace sunder::command_test {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "support/gltf_validator.h"
+#include "support/machine/gltf_validator.h"
 #include "tools/command_fixture.h"
 
 namespace sunder::command_test {

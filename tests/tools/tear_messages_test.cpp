@@ -6,7 +6,7 @@
 #include <regex>
 #include <sstream>
 
-#include "support/random.h"
+#include "support/machine/random.h"
 #include "tools/command_fixture.h"
 
 namespace sunder::command_test {

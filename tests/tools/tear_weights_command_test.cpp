@@ -7,8 +7,8 @@
 #include <map>
 
 #include "skinning/internal/reference.h"
-#include "support/rigs.h"
-#include "support/shared_models.h"
+#include "support/models/rigs.h"
+#include "support/models/shared_models.h"
 #include "tools/command_fixture.h"
 
 namespace sunder::command_test {

@@ -12,9 +12,9 @@
 
 #include <gtest/gtest.h>
 
-#include "support/random.h"
-#include "support/random_operations.h"
-#include "support/rigs.h"
+#include "support/machine/random.h"
+#include "support/models/random_operations.h"
+#include "support/models/rigs.h"
 #include "tools/picture/rims.h"
 #include "tools/view_page/torn_section.h"
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "support/gltf_validator.h"
+#include "support/machine/gltf_validator.h"
 #include "tools/command_fixture.h"
 
 namespace sunder::command_test {

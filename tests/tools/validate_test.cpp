@@ -13,8 +13,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "support/node_program.h"
-#include "support/temporary_folder.h"
+#include "support/machine/node_program.h"
+#include "support/machine/temporary_folder.h"
 #include "tools/demo/demo_rig.h"
 #include "tools/run_command.h"
 

@@ -11,11 +11,11 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "support/node_program.h"
-#include "support/page_example.h"
-#include "support/random.h"
-#include "support/rigs.h"
-#include "support/temporary_folder.h"
+#include "support/machine/node_program.h"
+#include "support/machine/random.h"
+#include "support/machine/temporary_folder.h"
+#include "support/models/page_example.h"
+#include "support/models/rigs.h"
 #include "tools/page_parts/base64.h"
 #include "tools/page_parts/model_section.h"
 #include "tools/page_parts/page_template.h"

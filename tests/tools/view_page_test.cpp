@@ -16,9 +16,9 @@
 #include <set>
 #include <sstream>
 
-#include "support/node_program.h"
-#include "support/rigs.h"
-#include "support/shared_models.h"
+#include "support/machine/node_program.h"
+#include "support/models/rigs.h"
+#include "support/models/shared_models.h"
 #include "tools/command_fixture.h"
 
 namespace sunder::command_test {

@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-#include "support/page_example.h"
+#include "support/models/page_example.h"
 #include "tools/validation_page/write_page.h"
 
 int main(int argc, char** argv) {

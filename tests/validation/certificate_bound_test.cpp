@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/stress.h"
+#include "support/machine/stress.h"
 #include "validation/random_rig.h"
 
 namespace sunder {

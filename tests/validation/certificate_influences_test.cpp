@@ -10,8 +10,8 @@
 #include <gtest/gtest.h>
 
 #include "skinning/internal/character_pose.h"
-#include "support/random_skin.h"
-#include "support/rigs.h"
+#include "support/models/random_skin.h"
+#include "support/models/rigs.h"
 #include "validation/random_rig.h"
 
 namespace sunder {

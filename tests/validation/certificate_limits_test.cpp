@@ -11,7 +11,7 @@
 #include <Eigen/SVD>
 #include <gtest/gtest.h>
 
-#include "support/stress.h"
+#include "support/machine/stress.h"
 #include "validation/random_rig.h"
 
 namespace sunder {

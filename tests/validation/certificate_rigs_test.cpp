@@ -14,8 +14,8 @@
 
 #include <gtest/gtest.h>
 
-#include "support/random.h"
-#include "support/shared_models.h"
+#include "support/machine/random.h"
+#include "support/models/shared_models.h"
 #include "validation/random_rig.h"
 
 namespace sunder {

@@ -11,9 +11,9 @@
 #include <gtest/gtest.h>
 
 #include "skinning/internal/reference.h"
-#include "support/make_model.h"
-#include "support/random_operations.h"
-#include "support/rigs.h"
+#include "support/models/make_model.h"
+#include "support/models/random_operations.h"
+#include "support/models/rigs.h"
 #include "validation/match/closest_on_triangle.h"
 #include "validation/match/skin_difference.h"
 

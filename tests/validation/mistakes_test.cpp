@@ -8,8 +8,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "support/own_models.h"
-#include "support/planted_mistakes.h"
+#include "support/models/own_models.h"
+#include "support/models/planted_mistakes.h"
 
 namespace sunder::test {
 namespace {

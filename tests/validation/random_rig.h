@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "support/random.h"
+#include "support/machine/random.h"
 
 namespace sunder::test {
 

@@ -12,10 +12,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "support/changed_surfaces.h"
-#include "support/make_model.h"
-#include "support/random_operations.h"
-#include "support/rigs.h"
+#include "support/models/changed_surfaces.h"
+#include "support/models/make_model.h"
+#include "support/models/random_operations.h"
+#include "support/models/rigs.h"
 #include "validation/match/weld.h"
 #include "validation/transfer/laplacian.h"
 

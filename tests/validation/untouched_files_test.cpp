@@ -7,10 +7,10 @@
 
 #include <gtest/gtest.h>
 
-#include "support/own_models.h"
-#include "support/rigs.h"
-#include "support/shared_models.h"
-#include "support/temporary_folder.h"
+#include "support/machine/temporary_folder.h"
+#include "support/models/own_models.h"
+#include "support/models/rigs.h"
+#include "support/models/shared_models.h"
 
 namespace sunder::test {
 namespace {

@@ -14,7 +14,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "support/rigs.h"
+#include "support/models/rigs.h"
 
 namespace sunder::test {
 namespace {

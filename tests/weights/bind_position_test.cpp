@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/random_skin.h"
+#include "support/models/random_skin.h"
 
 namespace sunder {
 namespace {

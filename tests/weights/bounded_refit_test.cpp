@@ -6,10 +6,10 @@
 
 #include <gtest/gtest.h>
 
-#include "support/allocation_count.h"
-#include "support/coupled.h"
-#include "support/refit_scene.h"
-#include "support/stress.h"
+#include "support/machine/allocation_count.h"
+#include "support/machine/stress.h"
+#include "support/models/refit_scene.h"
+#include "support/oracles/coupled.h"
 #include "weights/internal/coupled_refit.h"
 #include "weights/internal/point_refit.h"
 

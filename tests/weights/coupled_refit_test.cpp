@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
-#include "support/coupled.h"
-#include "support/refit_scene.h"
+#include "support/models/refit_scene.h"
+#include "support/oracles/coupled.h"
 
 namespace sunder {
 namespace {

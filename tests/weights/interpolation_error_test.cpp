@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/random_skin.h"
+#include "support/models/random_skin.h"
 #include "weights/internal/animation_point.h"
 
 namespace sunder {

@@ -8,10 +8,10 @@
 #include <Eigen/QR>
 #include <gtest/gtest.h>
 
-#include "support/allocation_count.h"
-#include "support/refit_scene.h"
-#include "support/simplex_oracle.h"
-#include "support/stress.h"
+#include "support/machine/allocation_count.h"
+#include "support/machine/stress.h"
+#include "support/models/refit_scene.h"
+#include "support/oracles/simplex_oracle.h"
 
 namespace sunder {
 namespace {

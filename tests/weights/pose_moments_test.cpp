@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "support/random.h"
-#include "support/random_skin.h"
+#include "support/machine/random.h"
+#include "support/models/random_skin.h"
 
 namespace sunder {
 namespace {

@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "skinning/internal/reference.h"
-#include "support/random.h"
-#include "support/random_skin.h"
+#include "support/machine/random.h"
+#include "support/models/random_skin.h"
 
 namespace sunder {
 namespace {

@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/random.h"
+#include "support/machine/random.h"
 
 namespace sunder {
 namespace {

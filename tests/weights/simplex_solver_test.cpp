@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "support/random.h"
-#include "support/simplex_oracle.h"
-#include "support/stress.h"
+#include "support/machine/random.h"
+#include "support/machine/stress.h"
+#include "support/oracles/simplex_oracle.h"
 
 namespace sunder {
 namespace {

@@ -14,8 +14,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "support/random.h"
-#include "support/stress.h"
+#include "support/machine/random.h"
+#include "support/machine/stress.h"
 #include "tear/section/exact_predicates.h"
 
 namespace sunder::tear {

@@ -1,0 +1,34 @@
+#include "bench/harness/json_object.h"
+
+namespace sunder::bench {
+
+void JsonObject::add(const char* name, std::optional<double> value) {
+  begin(name);
+  if (value)
+    std::fprintf(file_, "%.6g", *value);
+  else
+    std::fprintf(file_, "null");
+}
+
+void JsonObject::add(const char* name, const std::vector<std::pair<std::string, double>>& values) {
+  begin(name);
+  std::fprintf(file_, "{");
+  for (std::size_t i = 0; i < values.size(); ++i)
+    std::fprintf(file_, "%s\"%s\": %.6g", i == 0 ? "" : ", ", values[i].first.c_str(),
+                 values[i].second);
+  std::fprintf(file_, "}");
+}
+
+void JsonObject::add_text(const char* name, const std::string& text) {
+  begin(name);
+  std::fprintf(file_, "\"%s\"", text.c_str());
+}
+
+void JsonObject::end() { std::fprintf(file_, "}\n"); }
+
+void JsonObject::begin(const char* name) {
+  std::fprintf(file_, "%s\"%s\": ", is_first_ ? "{" : ", ", name);
+  is_first_ = false;
+}
+
+}  // namespace sunder::bench
