@@ -319,10 +319,10 @@ TEST_F(TearMessages, outputs_that_cannot_be_files_are_refused_before_anything_is
 }
 
 TEST_F(TearMessages, a_picture_that_failed_does_not_count_as_written) {
-  const std::string log = write("one.json", kOneTear);
+  const std::string log =
+      write("nothing.json", R"({"sunder_operations": 1, "operations": []})");  // to be drawn
   const CommandResult result =
-      run_sunder({"tear", model(), "--ops", log, "-o", path("m.glb"), "--picture", path("m.jpg")},
-                 {{"PATH", "/nonexistent"}});
+      run_sunder({"tear", model(), "--ops", log, "-o", path("m.glb"), "--picture", path("m.jpg")});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.out, AllOf(HasSubstr("m.glb"), Not(HasSubstr("m.jpg"))));
   EXPECT_THAT(result.err, HasSubstr("the file is written as PNG, but its name does not end in"));

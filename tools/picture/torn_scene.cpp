@@ -46,6 +46,10 @@ RenderScene make_torn_scene(const TornView& view, const ModelLooks& looks, doubl
   const std::vector<RimEdge> rims = find_rims(view.torn);
   std::vector<bool> is_torn(view.open.size(), false);
   for (const RimEdge& edge : rims) is_torn[edge.mesh] = true;
+  for (std::size_t m = 0; m < is_torn.size(); ++m)  // A gap with walls has no rims.
+    if (view.torn.character().meshes[m].submeshes.size() >
+        view.torn.source().meshes[m].submeshes.size())
+      is_torn[m] = true;
   for (std::uint32_t m = 0; m < view.open.size(); ++m)
     looks.add_mesh(view.torn.character().meshes[m], view.open[m],
                    {static_cast<std::uint32_t>(view.torn.source().meshes[m].submeshes.size()),
