@@ -235,12 +235,15 @@ class RimPlaces {
 }  // namespace
 
 Index find_border(const Surface& surface, Index a, Index b) {
+  if (surface.point_corner[a] == kNone || surface.point_corner[b] == kNone) return kNone;
   for (const Index h : {surface.find_half_edge(a, b), surface.find_half_edge(b, a)})
     if (h != kNone && surface.twin[h] == kNone) return h;
   return kNone;
 }
 
-double lean_of(const LipWallOptions& options) { return 0.5 * options.width + kLeanDepths * options.depth; }
+double lean_of(const LipWallOptions& options) {
+  return 0.5 * options.width + kLeanDepths * options.depth;
+}
 
 ScratchVector<LipPlace> lip_places(Rim& rim, const Stroke& stroke, const LipWallOptions& options,
                                    const LipWalls& walls, WallBuilder& builder) {

@@ -267,7 +267,8 @@ TEST(Architecture, the_header_of_all_modules_includes_every_public_header) {
         !name.starts_with("sunder/validation/") && !name.starts_with("sunder/certificate/") &&
         !name.starts_with("sunder/coupled_refit/") && !name.starts_with("sunder/robot/") &&
         !name.starts_with("sunder/binding/") && name != "sunder/io/robot_file.h" &&
-        name != "sunder/core/memory_operators.h" && name != "sunder/io/trajectory_file.h" && name != "sunder/particles/fitted_colliders.h")
+        name != "sunder/core/memory_operators.h" && name != "sunder/io/trajectory_file.h" &&
+        name != "sunder/particles/fitted_colliders.h")
       installed.insert(name);  // what a frame needs; pipelines include their own
   EXPECT_EQ(installed.erase("sunder/sunder.h"), 1u);
   EXPECT_EQ(included, installed);

@@ -367,9 +367,11 @@ TEST_F(ViewPage, shows_lips_and_pieces_of_a_torn_model_and_continues_its_log) {
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const json facts = used("torn", path("torn.html"), "");
   EXPECT_EQ(facts["which"], "target") << "the torn model is shown first";
-  EXPECT_GT(facts["torn"]["lips"], 1e-4);
+  // Some pixels of the pink flowers have the colour of lips.
+  const double lips_of_source = facts["source"]["lips"];
+  EXPECT_LT(lips_of_source, 1e-4);
+  EXPECT_GT(facts["torn"]["lips"], lips_of_source + 1e-4);
   EXPECT_GT(facts["torn"]["piece"], 1e-3);
-  EXPECT_EQ(facts["source"]["lips"], 0.0);
   EXPECT_EQ(facts["source"]["piece"], 0.0);
   EXPECT_LT(facts["torn"]["outline_distance"], 4.0) << "lips stand out by half of their width";
   EXPECT_THAT(facts["facts"].get<std::string>(), HasSubstr("piece 1"));
