@@ -18,6 +18,7 @@ bool breaks(const Outcome& outcome, const std::string& law) {
 
 Steps shrink(const Outcome& failed, double seconds_of_case) {
   const std::string& law = failed.report.violations.at(0).law;
+  if (law == "hang") return {};  // Each attempt would take as long.
   std::set<std::uint32_t> kept;
   for (std::uint32_t step = 1; step <= kMostSteps; ++step) kept.insert(step);
   // Runs of steps first, then one by one.
