@@ -13,7 +13,7 @@ struct Violation {
   std::string text;  ///< What was found.
 };
 
-/// What one case did, and what was found.
+/// The result of one case.
 struct CaseReport {
   std::uint64_t operations = 0;  ///< Done; those that missed the surface count.
   std::uint64_t refused = 0;     ///< Refused with an error that the interface documents.

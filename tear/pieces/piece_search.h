@@ -82,7 +82,7 @@ class PieceSearch {
   ScratchVector<Front> fronts_;
   /// Clean nodes that were visited, and changed cells that have marks of faces.
   ScratchVector<Index> marked_nodes_;
-  /// Of those cells: the number of faces that were not left, then a mark per face.
+  /// Per such cell: the number of its faces that were not left, then a mark per face.
   ScratchVector<Index> cell_marks_;
   ScratchVector<Index> appended_marks_;  ///< Per appended triangle.
   ScratchVector<Index> active_;          ///< The fronts that can still grow.

@@ -10,16 +10,16 @@ namespace sunder {
 /// A copy of a ParticleSet that follows an operation on another thread, while the set is used, so
 /// that the frame in which the operation takes effect only exchanges the two:
 ///
-///   auto fork = ParticleFork::create(set, model);             // a frame
-///   fork->follow(replica, changes);                           // on a thread:
-///   OperationJob::Observer if (!fork->take(set, model)) set.follow(model, changes);  // the frame
-///   of swap_in()
+///   auto fork = ParticleFork::create(set, model);  // in a frame
+///   fork->follow(replica, changes);  // on a thread, by OperationJob::Observer
+///   if (!fork->take(set, model)) set.follow(model, changes);  // in the frame of swap_in()
 ///
 /// The set does not settle while it has a fork. ParticleSet::follow() on the set ends the fork.
 class SUNDER_API ParticleFork {
  public:
-  /// Of a set that has followed its model, on which no stroke is in progress. An earlier fork of
-  /// the set ends. @return invalid_argument in a stroke, or if the set is_broken(); limit_exceeded:
+  /// @param set  has followed its model; no stroke is in progress on it. An earlier fork of it
+  /// ends.
+  /// @return invalid_argument in a stroke, or if the set is_broken(); limit_exceeded:
   /// out of memory. O(1) for a set of an asset.
   static Result<ParticleFork> create(ParticleSet& set, const TornModel& model);
   ~ParticleFork();

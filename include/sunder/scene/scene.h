@@ -153,8 +153,7 @@ class SUNDER_API Scene {
   /// Makes the scene one that was saved. It goes on with the same bits, and the same names; engines
   /// start their buffers anew. What waits in submit() stays. The bytes are not trusted.
   /// @param assets    those of the instances, in any order; found by digests of their characters
-  /// and
-  ///                  of how these are divided into particles.
+  ///                  and of how these are divided into particles.
   /// @param capacity  of each instance; that of the saved one is not kept.
   /// @return unsupported_format, malformed_file (index: the byte, or the slot), not_found without
   ///         the asset of an instance, the failure of an operation. The scene is unchanged then.

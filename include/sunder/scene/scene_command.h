@@ -71,7 +71,7 @@ struct CommandResult {
   Status status;      ///< A command that failed changed nothing.
   TearReport report;  ///< Empty for a command that failed, and for undo and redo.
   std::shared_ptr<const DetachedPiece> piece;  ///< Of a DetachCommand that succeeded.
-  /// Of that piece if it was soft, for CharacterInstance::inherit_motion().
+  /// The motion of that piece if it was soft, for CharacterInstance::inherit_motion().
   std::shared_ptr<const PieceTissue> tissue;
   std::vector<ChangeRecord> changes;  ///< If CommandOptions::wants_changes.
 };
