@@ -97,12 +97,6 @@ DepthImage::Pixel DepthImage::at(double x, double y) const {
   return pixels_[static_cast<std::size_t>(row * width_ + column)];
 }
 
-double DepthImage::depth_behind_front(const Vec3d& position_model) const {
-  const Vec2d seen(position_model.dot(frame_.right), position_model.dot(frame_.up));
-  const Vec2d pixel = (seen - least_) / pixel_size_;
-  return std::max(0.0, at(pixel.x(), pixel.y()).depth - position_model.dot(frame_.towards_eye));
-}
-
 Vec3d DepthImage::position(double x, double y) const {
   return (least_.x() + x * pixel_size_) * frame_.right +
          (least_.y() + y * pixel_size_) * frame_.up + at(x, y).depth * frame_.towards_eye;

@@ -40,9 +40,6 @@ class DepthImage {
   [[nodiscard]] double nearest_depth() const { return nearest_depth_; }
   /// The background pixel if it is outside the image.
   [[nodiscard]] Pixel at(double x, double y) const;
-  /// Distance of a position behind the nearest surface on its line of sight, metres; 0 if it lies
-  /// in front of it or if there is no surface.
-  [[nodiscard]] double depth_behind_front(const Vec3d& position_model) const;
   /// The position of the surface in model space; not for background pixels.
   [[nodiscard]] Vec3d position(double x, double y) const;
 

@@ -19,7 +19,6 @@
 #include "tools/model/model_check.h"
 #include "tools/model/named_poses.h"
 #include "tools/model/robot_joints.h"
-#include "tools/picture/picture.h"
 #include "tools/picture/torn_picture.h"
 #include "tools/tear/open_lips_of_run.h"
 #include "tools/tear/refit.h"
