@@ -4,31 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "tear/filling/blade_direction.h"
 #include "tear/filling/room_below.h"
 
 namespace sunder::tear {
 namespace {
-
-double squared_distance(const Blade& blade, const Vec3d& point) {
-  const Vec3d along = blade.tip - blade.base;
-  const double at = std::clamp(dot(along, point - blade.base) / squared_norm(along), 0.0, 1.0);
-  return squared_norm(point - blade.base - at * along);
-}
-
-/// The direction of the blades near a place, weighted by the inverse fourth power of their
-/// distances, so that it varies smoothly from one blade to the next.
-Vec3d blade_direction(const Stroke& stroke, const Vec3d& at) {
-  double nearest = squared_distance(stroke.front(), at);
-  for (const Blade& blade : stroke) nearest = std::min(nearest, squared_distance(blade, at));
-  Vec3d sum = Vec3d::Zero();
-  for (const Blade& blade : stroke) {
-    const double squared = squared_distance(blade, at);
-    const double ratio =
-        squared > 0 ? nearest / squared : 1.0;  // 1 for the nearest blade, in any unit
-    sum += ratio * ratio * normalized(blade.tip - blade.base);
-  }
-  return unit_or(sum, normalized(stroke.front().tip - stroke.front().base));
-}
 
 /// The share of the lean in the first row below the lip, see the profile in lip_walls.cpp.
 constexpr double kFirstRow = 1.0 / 9;
@@ -43,6 +23,7 @@ class RimPlaces {
         options_(options),
         walls_(walls),
         builder_(builder),
+        directions_(stroke, builder.scratch()),
         places_(&builder.scratch()) {}
 
   ScratchVector<LipPlace> make() {
@@ -168,7 +149,7 @@ class RimPlaces {
       across += outward(of);
       normal += face_normal(of);
     }
-    place.down = blade_direction(stroke_, place.at);
+    place.down = directions_.at(place.at);
     if (options_.all_layers && dot(normal, place.down) > 0) place.down = -place.down;
     across -= dot(across, place.down) * place.down;
     if (norm(across) > kLeastUnder) place.under = across / norm(across);
@@ -229,6 +210,7 @@ class RimPlaces {
   const LipWallOptions& options_;
   const LipWalls& walls_;
   WallBuilder& builder_;
+  BladeDirections directions_;
   ScratchVector<LipPlace> places_;
 };
 

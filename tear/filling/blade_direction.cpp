@@ -1,0 +1,61 @@
+#include "tear/filling/blade_direction.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/internal/ordered.h"
+#include "tear/filling/wall_builder.h"
+
+namespace sunder::tear {
+namespace {
+
+constexpr std::size_t kBladesPerRun = 32;
+constexpr double kFarSquared = 64;
+
+}  // namespace
+
+double squared_distance(const Blade& blade, const Vec3d& point) {
+  const Vec3d along = blade.tip - blade.base;
+  const double at = std::clamp(dot(along, point - blade.base) / squared_norm(along), 0.0, 1.0);
+  return squared_norm(point - blade.base - at * along);
+}
+
+BladeDirections::BladeDirections(const Stroke& stroke, ScratchMemory& scratch)
+    : stroke_(stroke), runs_(&scratch) {
+  runs_.resize((stroke.size() + kBladesPerRun - 1) / kBladesPerRun);
+  for (std::size_t r = 0; r < runs_.size(); ++r) {
+    runs_[r] = {stroke[r * kBladesPerRun].base, stroke[r * kBladesPerRun].base};
+    for (const Blade& blade : blades_of(r))
+      for (const Vec3d* end : {&blade.base, &blade.tip}) {
+        runs_[r].least = runs_[r].least.cwiseMin(*end);
+        runs_[r].most = runs_[r].most.cwiseMax(*end);
+      }
+  }
+}
+
+std::span<const Blade> BladeDirections::blades_of(std::size_t run) const {
+  const std::size_t first = run * kBladesPerRun;
+  return std::span(stroke_).subspan(first, std::min(kBladesPerRun, stroke_.size() - first));
+}
+
+Vec3d BladeDirections::at(const Vec3d& place) const {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t r = runs_.size(); r-- > 0;) {  // places are mostly near the newest blades
+    if (runs_[r].squared_distance(place) > nearest) continue;
+    for (const Blade& blade : blades_of(r))
+      nearest = std::min(nearest, squared_distance(blade, place));
+  }
+  Vec3d sum = Vec3d::Zero();
+  for (std::size_t r = 0; r < runs_.size(); ++r) {
+    if (runs_[r].squared_distance(place) > kFarSquared * nearest) continue;
+    for (const Blade& blade : blades_of(r)) {
+      const double squared = squared_distance(blade, place);
+      const double ratio =
+          squared > 0 ? nearest / squared : 1.0;  // 1 for the nearest blade, in any unit
+      sum += ratio * ratio * normalized(blade.tip - blade.base);
+    }
+  }
+  return unit_or(sum, normalized(stroke_.front().tip - stroke_.front().base));
+}
+
+}  // namespace sunder::tear
