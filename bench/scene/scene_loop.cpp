@@ -95,17 +95,17 @@ void print_loop_stages(std::uint32_t vertices, LoopMode mode, int repeats) {
       fastest_frames(make_crowd_model(vertices, kBones), mode, repeats);
   std::printf(
       "Slowest frames, large operations %s, milliseconds; total: processor time\n%15s %6s %9s %9s "
-      "%9s %9s %9s\n",
+      "%9s %9s %9s %9s\n",
       mode == LoopMode::in_frame ? "in the frame" : "in the background", "", "frame", "total",
-      "animation", "operation", "tissue", "drawing");
+      "animation", "operation", "settling", "tissue", "drawing");
   for (const Act& part : kActs) {
     const FrameStats& slowest = *std::max_element(
         frames.begin() + part.first_frame, frames.begin() + part.first_frame + part.frame_count,
         [](const FrameStats& a, const FrameStats& b) { return a.total < b.total; });
-    std::printf("%15s %6llu %9.3f %9.3f %9.3f %9.3f %9.3f\n", part.name,
+    std::printf("%15s %6llu %9.3f %9.3f %9.3f %9.3f %9.3f %9.3f\n", part.name,
                 static_cast<unsigned long long>(slowest.frame - 1), 1e-3 * slowest.total,
-                1e-3 * slowest.animation, 1e-3 * slowest.operations, 1e-3 * slowest.tissue,
-                1e-3 * slowest.drawing);
+                1e-3 * slowest.animation, 1e-3 * slowest.operations, 1e-3 * slowest.settling,
+                1e-3 * slowest.tissue, 1e-3 * slowest.drawing);
   }
 }
 

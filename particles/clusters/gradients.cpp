@@ -92,6 +92,7 @@ void Gradients::begin_change(Change& change) {
   for (auto point = static_cast<Index>(is_known_.size()); point < change.points; ++point)
     unknown_.push_back(point);
   is_known_.resize(std::max<std::size_t>(is_known_.size(), change.points), false);
+  reserve_eighth(gradients_, is_known_.size());
   gradients_.resize(is_known_.size());
 }
 

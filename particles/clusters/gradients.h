@@ -10,6 +10,8 @@ namespace sunder::particles {
 /// are recomputed there.
 class Gradients {
  public:
+  /// Reserves room for `points` and some more, so that the next tears need not move the rows.
+  void make_room(std::size_t points) { reserve_eighth(gradients_, points); }
   /// Begins an operation: forget() logs gradients in its change.
   void begin_change(Change& change);
   /// Invalidates points whose weights changed, and their neighbours.

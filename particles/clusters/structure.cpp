@@ -29,6 +29,8 @@ std::unique_ptr<Structure> Structure::copy() const {
   made->particles = particles;
   made->members = members;
   made->lips = lips;
+  if (const std::size_t known = gradients->known().size(); known > 0)
+    made->gradients->make_room(known + 1);
   *made->gradients = *gradients;
   made->prepare_for_tears(tears.triangle_count);
   return made;
