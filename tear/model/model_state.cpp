@@ -167,12 +167,14 @@ void TornModel::State::count_changes_since(const tear::EditLog::Mark& begin,
 }
 
 TornPieces TornModel::State::find_pieces_since(const tear::EditLog::Mark& begin) {
-  return tear::find_pieces(begin, editor);
+  return tear::find_pieces(begin, editor.log.extent(), editor);
 }
 
-TornPieces TornModel::State::find_pieces_of_call(bool names_all) {
-  return names_all ? tear::find_pieces_at(borders_.of_call.lips, editor)
-                   : find_pieces_since(begin_of_call_);
+TornPieces TornModel::State::find_pieces_of_call(bool names_all, const tear::Outcome& outcome) {
+  if (names_all) return tear::find_pieces_at(borders_.of_call.lips, editor);
+  // Walls separate nothing.
+  return tear::find_pieces(begin_of_call_, outcome.before_walls.value_or(editor.log.extent()),
+                           editor);
 }
 
 void TornModel::State::record(const tear::EditLog::Mark& begin) {

@@ -62,7 +62,7 @@ struct TornModel::State {
       }
       report.weights = weigh_points_since(begin_of_call_, options.weights);
       count_changes_since(begin_of_call_, report);
-      report.pieces = find_pieces_of_call(options.names_all_pieces);
+      report.pieces = find_pieces_of_call(options.names_all_pieces, outcome);
       if (options.change != nullptr) describe_call(*options.change, options.is_detachment);
       make_room_for_borders();
       conclude(report);
@@ -169,7 +169,7 @@ struct TornModel::State {
     return capacity.vertices / 2 + 2 * std::size_t{capacity.operations};
   }
   void begin_call();
-  [[nodiscard]] TornPieces find_pieces_of_call(bool names_all);
+  [[nodiscard]] TornPieces find_pieces_of_call(bool names_all, const tear::Outcome& outcome);
   void make_room_for_borders();
   void keep_borders();
   void describe_call(ChangeRecord& change, bool is_detachment);

@@ -1,5 +1,7 @@
 #include "tear/operation/ongoing_stroke.h"
 
+#include <algorithm>
+
 #include "tear/filling/lip_walls.h"
 #include "tear/internal/surface.h"
 #include "tear/operation/all_layers.h"
@@ -14,12 +16,21 @@ namespace {
 // their depth and of the gap's width.
 constexpr double kHoldDepths = 1.5, kHoldWidths = 2;
 
+// Walls are added once the blade has moved by this part of their depth, because each time the lips
+// that are held back are looked at again.
+constexpr double kStepDepths = 0.5;
+
+double distance(const Blade& a, const Blade& b) {
+  return std::max(norm(Vec3d(a.base - b.base)), norm(Vec3d(a.tip - b.tip)));
+}
+
 }  // namespace
 
 void OngoingStroke::begin(const Blade& first, const TearOptions& options) {
   options_ = options;
   blade_ = first;
   blades_.assign(1, first);
+  walls_front_ = first;
   walls_.clear();
   tip_ = {};
   gap_.begin(options.width, options.layers);
@@ -75,6 +86,8 @@ void OngoingStroke::extend(const Blade& to, const Workpiece& work, Outcome& outc
   else
     tear_nearest_layer(*plane, work, tip_, outcome);
   improve_faces(before, work.editor);
+  outcome.before_walls.reset();
+  if (outcome.report.segments == 1) outcome.before_walls = work.editor.log.extent();
   add_walls(options_.width > 0 ? &from : &to, work);  // a gap is one segment behind
 }
 
@@ -87,6 +100,8 @@ void OngoingStroke::add_walls(const Blade* front, const Workpiece& work) {
   walls.material = options_.wall_material;
   walls.all_layers = options_.layers == Layers::all;
   if (front != nullptr) {
+    if (distance(*front, walls_front_) < kStepDepths * options_.wall_depth) return;
+    walls_front_ = *front;
     walls.front = *front;
     walls.hold = kHoldDepths * options_.wall_depth + kHoldWidths * options_.width;
   }
@@ -95,6 +110,7 @@ void OngoingStroke::add_walls(const Blade* front, const Workpiece& work) {
 
 void OngoingStroke::finish(const Workpiece& work, Outcome& outcome) {
   gap_.catch_up(work, outcome);
+  outcome.before_walls.reset();
   add_walls(nullptr, work);
 }
 

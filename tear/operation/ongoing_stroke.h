@@ -46,6 +46,7 @@ class OngoingStroke {
   Blade blade_;
   Stroke blades_;  ///< All blades, if there are walls to add.
   LipWalls walls_;
+  Blade walls_front_;  ///< The blade when walls were last added.
   StrokeTip tip_;
   GapBand gap_;
   Hold hold_;

@@ -2,6 +2,9 @@
 
 #include <sunder/tear/report.h>
 
+#include <optional>
+
+#include "tear/surface/edit_log.h"
 #include "tear/surface/opened_borders.h"
 
 namespace sunder::tear {
@@ -11,6 +14,8 @@ namespace sunder::tear {
 struct Outcome {
   TearReport report;
   OpenedBorders& borders;
+  /// The changes before walls were added, if these were the last step of the call.
+  std::optional<EditLog::Extent> before_walls = {};
 };
 
 }  // namespace sunder::tear

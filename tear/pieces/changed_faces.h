@@ -6,10 +6,11 @@
 
 namespace sunder::tear {
 
-/// The faces changed or created since an operation began, numbered, and their connections.
+/// The faces that the changes from `begin` to `end` created or changed, numbered, and their
+/// connections.
 class ChangedFaces {
  public:
-  ChangedFaces(const EditLog::Mark& begin, const SurfaceEditor& editor);
+  ChangedFaces(const EditLog::Mark& begin, const EditLog::Extent& end, const SurfaceEditor& editor);
 
   [[nodiscard]] Index count() const { return static_cast<Index>(face_.size()); }
   [[nodiscard]] Index face(Index i) const { return face_[i]; }

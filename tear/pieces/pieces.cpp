@@ -48,8 +48,9 @@ class LipFronts {
 
 }  // namespace
 
-TornPieces find_pieces(const EditLog::Mark& begin, const SurfaceEditor& editor) {
-  ChangedFaces changed(begin, editor);
+TornPieces find_pieces(const EditLog::Mark& begin, const EditLog::Extent& end,
+                       const SurfaceEditor& editor) {
+  ChangedFaces changed(begin, end, editor);
   if (changed.set_count() < 2) return {};
   // A front per connected set of changed faces.
   ScratchVector<Index> front_of(changed.count(), kNone, &editor.scratch()),

@@ -26,6 +26,15 @@ class EditLog {
     bool operator==(const Mark&) const = default;
   };
 
+  /// How far the log has come. Reading it sets no mark.
+  struct Extent {
+    Index triangles = 0, triangle_changes = 0;
+  };
+  [[nodiscard]] Extent extent() const {
+    return {columns_.surface.triangle_count(),
+            static_cast<Index>(columns_.triangle_changes.size())};
+  }
+
   EditLog(Character& character, EditColumns& columns)
       : character_(character), columns_(columns), mesh_rows_(character.meshes.size()) {}
 
@@ -68,8 +77,13 @@ class EditLog {
   /// at the mark, in the order of the changes.
   template <class Visit>
   void for_each_first_change(const Mark& mark, Visit visit) const {
+    for_each_first_change(mark, extent(), visit);
+  }
+  /// The same for the changes before `end`.
+  template <class Visit>
+  void for_each_first_change(const Mark& mark, const Extent& end, Visit visit) const {
     const auto& changes = columns_.triangle_changes;
-    for (Index i = mark.triangle_changes; i < changes.size(); ++i) {
+    for (Index i = mark.triangle_changes; i < end.triangle_changes; ++i) {
       const Index previous = changes[i].previous;
       if (changes[i].triangle < mark.triangles &&
           (previous == kNone || previous < mark.triangle_changes))

@@ -2,11 +2,13 @@
 // faces finds, after any sequence of operations, undo, redo and compact.
 #include <sunder/skinning/deform.h>
 #include <sunder/skinning/pose.h>
+#include <sunder/tear/tear_stroke.h>
 #include <sunder/tear/torn_model.h>
 
 #include <algorithm>
 #include <array>
 #include <map>
+#include <numbers>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -284,6 +286,52 @@ TEST(Pieces, of_a_sheet_and_a_ball_are_their_components) {
                                 static_cast<std::uint64_t>(seed));
   }
   EXPECT_GT(pieces, 20u);
+}
+
+/// A stroke that winds around the middle of a unit sheet, once or more, and crosses itself.
+Stroke ring_stroke(Random& random) {
+  const double turns = random.uniform(1.05, 2), shrink = random.index(2) == 0 ? 0 : 0.5,
+               waver = random.index(3) == 0 ? 0.97 : 1;
+  const std::uint32_t blades = 20 + random.index(60);
+  Stroke stroke;
+  for (std::uint32_t i = 0; i <= blades; ++i) {
+    const double t = static_cast<double>(i) / blades, angle = 2 * std::numbers::pi * turns * t;
+    const double radius = 0.3 * (1 - shrink * t) * (i % 2 == 0 ? 1 : waver);
+    stroke.push_back(test::down_at(0.5 + radius * std::cos(angle), 0.5 + radius * std::sin(angle)));
+  }
+  return stroke;
+}
+
+TEST(Pieces, of_strokes_whose_walls_grow_are_their_components) {
+  std::size_t pieces = 0;
+  for (int seed = 0; seed < count_of_cases(24) && !HasFailure(); ++seed) {
+    Random random(static_cast<std::uint64_t>(seed));
+    TornModel model = make_model(test::make_sheet(12));
+    const ModelPose pose = *bind_pose(model.source());
+    const Stroke stroke = ring_stroke(random);
+    TearOptions options;
+    options.width = seed % 3 == 0 ? 0.01 : 0;
+    options.wall_depth = random.uniform(0.002, 0.04);
+    auto tear = TearStroke::create(model, pose, stroke[0], options);
+    ASSERT_TRUE(tear);
+    const Components untorn(model);
+    const auto untorn_of_source = components_of_sources(untorn, model);
+    for (std::size_t i = 1; i < stroke.size() && !HasFailure(); ++i) {
+      SCOPED_TRACE(testing::Message() << "seed " << seed << ", blade " << i);
+      const Components before(model);
+      const auto former_of_source = components_of_sources(before, model);
+      const auto report = tear->extend(pose, stroke[i]);
+      ASSERT_TRUE(report);
+      const Separated expected(before, former_of_source, model);
+      if (expected.is_clear) pieces += expect_named(expected, *report, false, model);
+    }
+    SCOPED_TRACE(seed);
+    const auto report = tear->end();
+    ASSERT_TRUE(report);
+    const Separated expected(untorn, untorn_of_source, model);
+    if (expected.is_clear) pieces += expect_named(expected, *report, false, model);
+  }
+  EXPECT_GT(pieces, 10u);
 }
 
 TEST(Pieces, of_soups_are_their_components) {
