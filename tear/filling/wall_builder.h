@@ -24,7 +24,7 @@ inline Vec3d unit_or(const Vec3d& vector, const Vec3d& otherwise) {
 class WallBuilder {
  public:
   WallBuilder(const Workpiece& work, Index material)
-      : work_(work), filling_("wall", work, material) {}
+      : work_(work), filling_(Fillings::kWall, work, material) {}
 
   /// Runs `build`, which adds triangles for some borders, and connects them. @return false if that
   /// fails; then nothing is added.

@@ -1,11 +1,14 @@
 #include "tear/operation/nearest_layer.h"
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 #include "tear/geometry/tolerances.h"
 #include "tear/internal/surface.h"
 #include "tear/path/imprint.h"
 #include "tear/path/imprint_point.h"
+#include "tear/path/wall_path.h"
 #include "tear/surface/open.h"
 
 namespace sunder::tear {
@@ -26,6 +29,7 @@ class NearestLayerSegment {
  private:
   double tear_piece(Index start, const EditLog::Mark& before);
   void make_openable(Path& path);
+  void add_walls(Path& path);
   double take_back(const Path& path, Index start, bool continues, const EditLog::Mark& before);
   void open(const Path& path);
 
@@ -34,6 +38,9 @@ class NearestLayerSegment {
   StrokeTip& tip_;
   Outcome& outcome_;
   Index last_end_ = kNone;  ///< Where the last piece of the segment ended.
+  /// Where a lip with a wall was crossed, if the last piece ended there. It may have snapped to a
+  /// point beyond.
+  std::optional<double> lip_progress_;
   std::size_t torn_edges_ = 0;
 };
 
@@ -49,12 +56,15 @@ double NearestLayerSegment::tear_piece(Index start, const EditLog::Mark& before)
   // not a piece of its own.
   const bool is_leftover = path.points.back() == last_end_;
   if (path.points.size() < 2 || is_leftover) return take_back(path, start, continues, before);
+  last_end_ = path.points.back();
+  if (!path.is_on_wall) add_walls(path);
   open(path);
   if (!continues) ++outcome_.report.runs;
   outcome_.report.faces_crossed += path.faces_crossed;
   outcome_.report.length_posed += path.length_posed;
-  last_end_ = path.points.back();
   if (path.end != PathEnd::blade) return path.progress;
+  // At a lip the next segment may begin on the other side, on a wall at a lip above.
+  if (path.is_on_wall || path.points.back() != last_end_) return 1.0;
   tip_.point = last_end_;
   tip_.ends_run = true;
   return 1.0;
@@ -74,6 +84,24 @@ void NearestLayerSegment::make_openable(Path& path) {
   else
     path.points.insert(path.points.begin() + 1, middle);
   path.half_edges.clear();
+}
+
+/// Extends a piece down the walls of the lips at which it begins or ends.
+void NearestLayerSegment::add_walls(Path& path) {
+  const Surface& surface = work_.editor.surface();
+  const auto below = [&](Index point) {
+    return surface.is_on_border(point) ? ScratchVector<Index>(&work_.editor.scratch())
+                                       : imprint_wall(plane_, point, work_.editor, work_.posed);
+  };
+  const ScratchVector<Index> first = below(path.points.front());
+  path.points.insert(path.points.begin(), first.rbegin(), first.rend());
+  if (!first.empty()) path.half_edges.clear();
+  if (path.end == PathEnd::blocked) return;
+  const ScratchVector<Index> last = below(path.points.back());
+  if (last.empty()) return;
+  path.points.insert(path.points.end(), last.begin(), last.end());
+  path.half_edges.clear();
+  lip_progress_ = path.crossing_progress;
 }
 
 /// Undoes the imprint of a piece that has no edge. A blade that moved by less than the resolution
@@ -111,8 +139,12 @@ void NearestLayerSegment::tear() {
   double progress = 0;
   if (tip_.point != kNone) progress = std::max(0.0, tear_piece(tip_.point, work_.editor.mark()));
   for (int futile = 0; progress < 1 && futile < kMostFutileTurns;) {
-    const auto contact = find_contact(plane_, progress, work_, tip_);
+    auto contact = find_contact(plane_, progress, work_, tip_);
     if (!contact) break;
+    if (const auto lip = std::exchange(lip_progress_, std::nullopt); lip && *lip < progress)
+      if (const auto before =
+              contact_in(contact->triangle, plane_, *lip, work_.editor, work_.posed))
+        contact = before;
     const EditLog::Mark before = work_.editor.mark();
     const std::size_t edges = torn_edges_;
     const Index start = imprint_point(*contact, Snapping::by_shape, work_.editor, work_.posed);

@@ -105,7 +105,10 @@ void OngoingStroke::add_walls(const Blade* front, const Workpiece& work) {
     walls.front = *front;
     walls.hold = kHoldDepths * options_.wall_depth + kHoldWidths * options_.width;
   }
-  add_lip_walls(work.editor.opened_edges.borders(), blades_, walls, walls_, work);
+  ScratchVector<Index> lips(&work.editor.scratch());
+  for (const Index half_edge : work.editor.opened_edges.borders())
+    if (!work.editor.is_wall(half_edge / 3)) lips.push_back(half_edge);
+  add_lip_walls(lips, blades_, walls, walls_, work);
 }
 
 void OngoingStroke::finish(const Workpiece& work, Outcome& outcome) {

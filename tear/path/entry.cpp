@@ -236,7 +236,7 @@ class Sweep {
 /// progress that is still of interest.
 template <class Take>
 void for_each_contact(const BladePlane& plane, double progress, const SurfaceEditor& editor,
-                      PosedPoints& posed, Take take) {
+                      PosedPoints& posed, ContactWith with, Take take) {
   const BladePlane::HalfPlane not_before = plane.from_progress(progress);
   const Frame frame = posed.frame_along(plane.axes(), editor);
   const Sweep sweep(plane, not_before, frame);
@@ -245,6 +245,7 @@ void for_each_contact(const BladePlane& plane, double progress, const SurfaceEdi
   };
   double limit = std::numeric_limits<double>::max();
   posed.visit_faces(editor, frame, least_progress, [&](Index triangle) {
+    if (with == ContactWith::all_but_walls && editor.is_wall(triangle)) return limit;
     const auto contact =
         contact_with(triangle, posed_corners(editor, posed, triangle), plane, progress, not_before);
     if (contact) limit = take(*contact);
@@ -279,7 +280,8 @@ std::optional<SurfaceHit> first_hit(const Blade& blade, const SurfaceEditor& edi
 }
 
 std::optional<SurfaceHit> first_contact(const BladePlane& plane, double progress,
-                                        const SurfaceEditor& editor, PosedPoints& posed) {
+                                        const SurfaceEditor& editor, PosedPoints& posed,
+                                        ContactWith with) {
   // The choice is independent of the order of visits: the least progress, then the least depth,
   // then the first face.
   double least = std::numeric_limits<double>::max(), least_depth = least;
@@ -295,7 +297,7 @@ std::optional<SurfaceHit> first_contact(const BladePlane& plane, double progress
   std::array<Contact, 8> near;
   std::size_t count = 0;
   bool are_all_near_kept = true;
-  for_each_contact(plane, progress, editor, posed, [&](const Contact& contact) {
+  for_each_contact(plane, progress, editor, posed, with, [&](const Contact& contact) {
     if (contact.low.progress < least) {
       least = contact.low.progress;
       count = static_cast<std::size_t>(
@@ -312,16 +314,23 @@ std::optional<SurfaceHit> first_contact(const BladePlane& plane, double progress
       least_depth = std::min(least_depth, contact.low.depth);
     for (const Contact& contact : std::span(near).first(count)) choose(contact);
   } else {  // many faces around one point: two more passes
-    for_each_contact(plane, progress, editor, posed, [&](const Contact& contact) {
+    for_each_contact(plane, progress, editor, posed, with, [&](const Contact& contact) {
       if (is_there(contact)) least_depth = std::min(least_depth, contact.low.depth);
       return least + kSamePlaceSweeps;
     });
-    for_each_contact(plane, progress, editor, posed, [&](const Contact& contact) {
+    for_each_contact(plane, progress, editor, posed, with, [&](const Contact& contact) {
       choose(contact);
       return least + kSamePlaceSweeps;
     });
   }
   return nearest ? std::optional(nearest->hit) : std::nullopt;
+}
+
+std::optional<SurfaceHit> contact_in(Index triangle, const BladePlane& plane, double progress,
+                                     const SurfaceEditor& editor, PosedPoints& posed) {
+  const auto contact = contact_with(triangle, posed_corners(editor, posed, triangle), plane,
+                                    progress, plane.from_progress(progress));
+  return contact ? std::optional(contact->hit) : std::nullopt;
 }
 
 std::optional<SurfaceHit> contact_at(const SurfaceHit& hit, const BladePlane& plane,

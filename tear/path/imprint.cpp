@@ -45,11 +45,12 @@ class GrowingPath {
   /// Goes one step on, or a leap across faces of one source triangle, or ends.
   void advance() {
     const Step step = find_step(plane_, path.points.back(), Snapping::by_shape, editor_, posed_);
-    if (step.corner == kNone) return end(PathEnd::surface);
+    if (step.corner == kNone || !may_go_to(step.corner / 3)) return end(PathEnd::surface);
     const Reach reach = reach_between(plane_, here_, step.position);
     // The progress at which the curve ends; the path may snap to a point before it.
     come_to(plane_.progress(Vec3d(here_ + reach.fraction * (step.position - here_))));
     if (reach.fraction == 1) come_to(step.crossing_progress);
+    path.crossing_progress = step.crossing_progress;
     if (reach.fraction < kSnapEdges) return end(reach.end());
     const bool crosses_face = step.end_corner() == kNone;
     if (crosses_face) ++path.faces_crossed;
@@ -68,6 +69,11 @@ class GrowingPath {
   void end(PathEnd how) {
     path.end = how;
     has_ended_ = true;
+  }
+  [[nodiscard]] bool may_go_to(Index face) {
+    const bool is_wall = editor_.is_wall(face);
+    if (path.points.size() == 1) path.is_on_wall = is_wall;
+    return path.is_on_wall || !is_wall;
   }
   void come_to(double progress) { path.progress = std::max(path.progress, progress); }
   void go_to(Index point, Index half_edge) {
@@ -141,7 +147,8 @@ class GrowingPath {
   /// @param progress_here  progress of the current place; updated.
   bool cross_next(double& progress_here, LineSplitter& splitter) {
     const Index entry = splitter.ahead();
-    if (entry == kNone || !editor_.origins.is_whole(entry / 3)) return false;
+    if (entry == kNone || !editor_.origins.is_whole(entry / 3) || !may_go_to(entry / 3))
+      return false;
     const EdgeCrossing exit = find_exit(plane_, entry, editor_, posed_);
     if (!(exit.fraction > kSnapEdges && exit.fraction < 1 - kSnapEdges)) return false;
     const Index after = editor_.surface().twin[exit.half_edge];
@@ -156,6 +163,7 @@ class GrowingPath {
       posed_.fetch(editor_, editor_.surface().corner_point[Surface::previous(after)]);
     posed_.pin(made, exit.position);
     come_to(progress);
+    path.crossing_progress = progress;
     progress_here = progress;
     go_to(made, splitter.half_edge());
     return true;

@@ -16,6 +16,9 @@ struct Path {
   /// Progress in the sweep at the end of the curve.
   double progress = 0;
   PathEnd end = PathEnd::surface;
+  /// Progress of the last crossing before it snapped, which may be to a point beyond.
+  double crossing_progress = 0;
+  bool is_on_wall = false;  ///< Whether it began on a wall. Other paths end at walls.
 };
 
 /// Turns the curve in which the plane meets the surface into a run of edges: from `start` from face

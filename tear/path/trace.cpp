@@ -20,6 +20,7 @@ Trace trace_path(const BladePlane& plane, Index start, const SurfaceEditor& edit
 
   const Step first = find_step(plane, start, Snapping::tight, editor, posed);
   if (first.corner == kNone) return trace;
+  const bool is_on_wall = editor.is_wall(first.corner / 3);
   SurfaceHit from;  // where the curve entered the face
   from.triangle = first.corner / 3;
   from.position = here;
@@ -38,7 +39,8 @@ Trace trace_path(const BladePlane& plane, Index start, const SurfaceEditor& edit
       trace.end_place = place_between(from, exit.place(), reach.fraction);
       return trace;
     }
-    if (surface.twin[exit.half_edge] == kNone) return trace;
+    const Index across = surface.twin[exit.half_edge];
+    if (across == kNone || (!is_on_wall && editor.is_wall(across / 3))) return trace;
     here = exit.position;
     const EdgeCrossing entry = exit.from_across(surface);
     from = entry.place();

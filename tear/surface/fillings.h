@@ -18,6 +18,14 @@ class Fillings {
   [[nodiscard]] const std::vector<Triangle>& of(Index mesh) const {
     return columns_.meshes[mesh].fillings;
   }
+  /// The name of the submeshes of walls.
+  static constexpr const char* kWall = "wall";
+  /// Whether a triangle is a part of a wall.
+  [[nodiscard]] bool is_wall(const TriangleRef& triangle) const {
+    if (triangle.source_triangle < source_.meshes[triangle.mesh].triangle_count()) return false;
+    const Mesh& mesh = character_.meshes[triangle.mesh];
+    return mesh.submeshes[mesh.triangle_submesh[triangle.triangle]].name == kWall;
+  }
   /// A triangle of the source or a filling.
   [[nodiscard]] const Triangle& origin_triangle(Index mesh, Index origin) const {
     const Index source_count = source_.meshes[mesh].triangle_count();

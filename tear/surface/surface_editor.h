@@ -42,6 +42,9 @@ class SurfaceEditor {
   [[nodiscard]] ScratchMemory& scratch() const { return scratch_; }
 
   [[nodiscard]] Index vertex_at(Index corner) const { return connectivity.vertex_at(corner); }
+  [[nodiscard]] bool is_wall(Index face) const {
+    return fillings.is_wall(surface().triangle(face));
+  }
   [[nodiscard]] bool is_source_vertex(Index corner) const {
     return vertex_at(corner) < source_.meshes[surface().triangle(corner / 3).mesh].vertex_count();
   }
