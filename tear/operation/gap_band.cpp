@@ -8,6 +8,7 @@
 #include "core/internal/ordered.h"
 #include "tear/geometry/tolerances.h"
 #include "tear/internal/surface.h"
+#include "tear/operation/walls_in_gap.h"
 #include "tear/path/imprint_point.h"
 #include "tear/path/trace.h"
 #include "tear/surface/improve.h"
@@ -268,9 +269,13 @@ void GapBand::remove(std::span<const PlaneSide> cell, std::span<const Side> side
                      const Pending& gap, const Workpiece& work, Outcome& outcome) {
   const ScratchMemory::Frame memory_of_step(work.editor.scratch());
   CellRim rim(work.editor.scratch());
-  CellSides of_points(cell, work.editor, work.posed);
+  CellSides with_walls(cell, work.editor, work.posed);
+  ScratchVector<CellFace> faces = faces_to_remove(with_walls, gap);
+  const bool had_walls = remove_walls_in_gap(cell, faces, *gap.plane, work, outcome);
+  CellSides without(cell, work.editor, work.posed);
+  if (had_walls) faces = faces_to_remove(without, gap);
   const GapRemoval removal =
-      remove_cell(of_points, faces_to_remove(of_points, gap), work.editor, &rim);
+      remove_cell(had_walls ? without : with_walls, faces, work.editor, &rim);
   add_rim_points(rim, sides, *gap.plane, outcome);
   outcome.report.faces_crossed += removal.faces_crossed;
   outcome.report.blocked += removal.blocked;

@@ -69,6 +69,33 @@ TEST(TornWalls, set_a_disc_free_however_deep_they_are) {
   EXPECT_GT(free, 10);
 }
 
+TEST(TornWalls, below_a_gap_are_removed_with_it) {
+  int free = 0;
+  for (int seed = 0; seed < test::stressed(20, 20) && !HasFailure(); ++seed) {
+    Random random(static_cast<std::uint64_t>(seed));
+    const Stroke circle =
+        unsteady_circle(random.uniform(1.05, 1.8), random.uniform(0, 0.005), random);
+    const Character sheet = test::make_sheet(12 + random.index(30));
+    const ModelPose pose = *bind_pose(sheet);
+    const double width = random.uniform(0.005, 0.02), depth = random.uniform(0.002, 0.03);
+    TornModel bare = make_model(sheet);
+    const auto without = bare.tear(pose, circle, {width, Layers::nearest, 0});
+    ASSERT_TRUE(without);
+    if (!is_disc_free(bare, *without)) continue;
+    ++free;
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    TornModel model = make_model(sheet);
+    const auto report = model.tear(pose, circle, {width, Layers::nearest, depth});
+    ASSERT_TRUE(report);
+    EXPECT_TRUE(is_disc_free(model, *report));
+    ASSERT_THAT(test::broken_laws(model), testing::IsEmpty());
+    ASSERT_THAT(test::broken_surface(model), testing::IsEmpty());
+    ASSERT_TRUE(model.undo());
+    EXPECT_EQ(model.character(), model.source());
+  }
+  EXPECT_GT(free, 10);
+}
+
 TEST(TornWalls, of_an_earlier_operation_part_where_a_tear_crosses_them) {
   for (int seed = 0; seed < test::stressed(40, 20) && !HasFailure(); ++seed) {
     SCOPED_TRACE(seed);
