@@ -4,6 +4,7 @@
 #include "tear/internal/surface.h"
 #include "tear/operation/all_layers.h"
 #include "tear/operation/nearest_layer.h"
+#include "tear/path/crack_points.h"
 #include "tear/path/entry.h"
 #include "tear/surface/improve.h"
 
@@ -74,6 +75,7 @@ void OngoingStroke::extend(const Blade& to, const Workpiece& work, Outcome& outc
     tear_all_layers(*plane, work, outcome);
   else
     tear_nearest_layer(*plane, work, tip_, outcome);
+  outcome.report.blocked += match_crack_points(before, work);
   improve_faces(before, work.editor);
   add_walls(options_.width > 0 ? &from : &to, work);  // a gap is one segment behind
 }
