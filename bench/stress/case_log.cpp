@@ -22,6 +22,7 @@ std::string to_line(const Outcome& outcome, const Steps& steps) {
                {"area_drift", report.area_drift},
                {"smallest_angle", report.smallest_angle},
                {"allocation_failures", report.allocation_failures},
+               {"digest", report.digest},
                {"seconds", outcome.seconds},
                {"violations", violations}};
   if (!steps.is_all()) line["steps"] = steps.kept();
@@ -42,6 +43,7 @@ bool from_line(const std::string& line, Outcome& outcome, Steps& steps) {
     report.area_drift = object.value("area_drift", 0.0);
     report.smallest_angle = object.value("smallest_angle", 180.0);
     report.allocation_failures = object.value("allocation_failures", report.allocation_failures);
+    report.digest = object.value("digest", report.digest);
     outcome.seconds = object.value("seconds", 0.0);
     for (const json& violation : object.value("violations", json::array()))
       report.violations.push_back({violation.at("law"), violation.at("text")});

@@ -23,6 +23,9 @@ struct Family {
 /// The family and seed of the case with a number.
 [[nodiscard]] CaseName case_of(std::uint64_t number, std::span<const Family* const> chosen);
 
+/// If it is not 0, all scenes get this number of threads; otherwise 1 to 4.
+extern std::uint32_t threads_of_scenes;
+
 using CaseFunction = void(std::uint64_t seed, const Steps& steps, CaseReport& report);
 
 // Operations on one model (model_cases.cpp).

@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <fstream>
+#include <map>
 #include <set>
 #include <string>
 #include <thread>
@@ -23,7 +24,7 @@ struct Options {
   std::vector<std::string> families;
   std::uint64_t first = 0;
   RunLimits limits;
-  std::string log, known;
+  std::string log, known, expected, plots;
   bool lists = false, summary = false, tables = false;
 };
 
@@ -45,9 +46,14 @@ bool parse(int count, char** arguments, Options& options, int& exit_code) {
                  "Appends a line of JSON per case; cases that it holds are not run again");
   app.add_option("--known", options.known,
                  "Runs only the cases of this file, with the steps that it names");
+  app.add_option("--expect", options.expected,
+                 "A log that another build wrote: its cases must have the same digests");
+  app.add_option("--threads", threads_of_scenes, "Threads of each scene; default: 1 to 4 by seed");
   app.add_flag("--list", options.lists, "Lists the families");
   app.add_flag("--tables", options.tables,
                "Prints errors and times against the size of the trouble, for docs/stability.md");
+  app.add_option("--plots", options.plots, "Folder for the plots of --tables (SVG)")
+      ->check(CLI::ExistingDirectory);
   app.add_flag("--summary", options.summary, "Ends with one JSON object");
   options.limits.workers = std::max(1u, std::thread::hardware_concurrency());
   try {
@@ -99,9 +105,38 @@ int run_known(const Options& options) {
   return broken > 0 ? 1 : 0;
 }
 
+/// The digests of the cases of a log, by family and seed.
+class Digests {
+ public:
+  explicit Digests(const std::string& log) {
+    if (log.empty()) return;
+    for (const auto& [outcome, steps] : read_log(log))
+      of_case_[{outcome.name.family, outcome.name.seed}] = outcome.report.digest;
+  }
+  [[nodiscard]] std::size_t count() const { return of_case_.size(); }
+
+  /// Adds a violation to a case with another digest.
+  void compare(Outcome& outcome) {
+    const auto at = of_case_.find({outcome.name.family, outcome.name.seed});
+    if (at == of_case_.end()) return;
+    ++compared;
+    if (at->second != outcome.report.digest)
+      outcome.report.violate("same bits in every build", "another digest than in the log");
+  }
+  std::uint64_t compared = 0;
+
+ private:
+  std::map<std::pair<std::string, std::uint64_t>, std::uint64_t> of_case_;
+};
+
 int run_new(const Options& options) {
   std::vector<const Family*> chosen;
   if (!choose(options.families, chosen)) return 2;
+  Digests expected(options.expected);
+  if (!options.expected.empty() && expected.count() == 0) {
+    std::fprintf(stderr, "sunder-stress: no case in \"%s\"\n", options.expected.c_str());
+    return 2;
+  }
   Summary summary;
   std::set<std::tuple<std::string, std::uint64_t>> done;
   if (!options.log.empty())
@@ -123,7 +158,8 @@ int run_new(const Options& options) {
       [&](const CaseName& name) {
         return done.contains({name.family, name.seed});
       },
-      [&](const Outcome& outcome) {
+      [&](Outcome outcome) {
+        expected.compare(outcome);
         summary.add(outcome);
         if (log.is_open()) log << to_line(outcome) << std::endl;
         if (!outcome.report.violations.empty()) failed.push_back(outcome);
@@ -133,6 +169,8 @@ int run_new(const Options& options) {
     print_failure(failed[i], shrink(failed[i], options.limits.seconds_of_case));
   for (std::size_t i = kMostShrunk; i < failed.size(); ++i) print_failure(failed[i], {});
   summary.print_table();
+  if (expected.count() > 0)
+    std::printf("%llu digests compared\n", static_cast<unsigned long long>(expected.compared));
   if (options.summary) summary.print_json();
   return summary.is_clean() ? 0 : 1;
 }
@@ -148,7 +186,7 @@ int run(int count, char** arguments) {
     return 0;
   }
   if (options.tables) {
-    print_trouble_tables();
+    print_trouble_tables(options.plots);
     return 0;
   }
   return options.known.empty() ? run_new(options) : run_known(options);

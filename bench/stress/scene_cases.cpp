@@ -78,10 +78,13 @@ class BusyScene {
   }
 
   void check() {
-    for (const InstanceId id : ids_)
-      if (const TornModel* model = std::as_const(scene_).find(id)->model(); model != nullptr)
-        for (const std::string& fault : test::broken_laws(*model))
-          report_.violate("cover and attributes", fault);
+    for (const InstanceId id : ids_) {
+      const TornModel* model = std::as_const(scene_).find(id)->model();
+      if (model == nullptr) continue;
+      report_.mix(model->digest());
+      for (const std::string& fault : test::broken_laws(*model))
+        report_.violate("cover and attributes", fault);
+    }
   }
 
  private:
@@ -152,10 +155,13 @@ class BusyScene {
 
 }  // namespace
 
+std::uint32_t threads_of_scenes = 0;
+
 void busy_scenes(std::uint64_t seed, const Steps& steps, CaseReport& report) {
   Random random = random_of(seed, 0);
   const Assets assets = make_assets(random);
-  auto scene = make_scene(1 + random.index(4));
+  const std::uint32_t threads = 1 + random.index(4);
+  auto scene = make_scene(threads_of_scenes != 0 ? threads_of_scenes : threads);
   if (assets.size() != 2 || !scene) return report.violate("scene", "not made");
   BusyScene busy(std::move(*scene), assets, report);
   constexpr std::uint32_t kFrames = 60;

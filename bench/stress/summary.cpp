@@ -81,7 +81,8 @@ void Summary::print_json() const {
   json.add("weight_sum_error", all.weight_sum_error);
   json.add("undo_mismatches", count_of(violations_, {"undo", "redo"}));
   json.add("digest_mismatches",
-           count_of(violations_, {"replay", "failing call changes nothing", "memory", "snapshot"}));
+           count_of(violations_, {"replay", "failing call changes nothing", "memory", "snapshot",
+                                  "same bits in every build"}));
   json.add("allocation_failures_tried", static_cast<double>(all.allocation_failures));
   json.add("faces_after_1000",
            region ? std::optional(static_cast<double>(region->faces)) : std::nullopt);

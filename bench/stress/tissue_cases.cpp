@@ -3,6 +3,7 @@
 #include <sunder/particles/soft_body.h>
 #include <sunder/skinning/pose.h>
 
+#include <bit>
 #include <cmath>
 #include <memory>
 
@@ -130,6 +131,9 @@ class Tissue {
     for (std::uint32_t p = 0; p < body_->particle_count(); ++p)
       if (!body_->velocity(p).allFinite())
         return report_.violate("finite motion", say("particle ", p, " has no speed"));
+    for (const auto& displacement : displacements)
+      for (int i = 0; i < 3; ++i)
+        report_.mix(std::bit_cast<std::uint64_t>(static_cast<double>(displacement[i])));
   }
 
   CaseReport& report_;

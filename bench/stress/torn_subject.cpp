@@ -83,6 +83,7 @@ void TornSubject::note(const Status& error, const ChangeRecord& change) {
   }
   ++report_.operations;
   if (model_->undo_count() + 1 > digests_.size()) digests_.push_back(model_->digest());
+  report_.mix(digests_.back());
   if (++since_check_ % check_every_ == 0) check(change);
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "bench/harness/measure.h"
+#include "bench/stress/plot.h"
 #include "bench/stress/torn_subject.h"
 #include "support/models/hard_operations.h"
 #include "support/models/random_operations.h"
@@ -34,18 +35,24 @@ class Trial {
     ++(is_done ? done_ : refused_);
   }
 
-  void print_row(const std::string& trouble) const {
+  /// Prints a row and adds it to a plot. @param trouble  the size of the trouble.
+  void print_row(double trouble, Plot& plot) const {
     CaseReport report;
     measure(model_, report);
     const std::size_t broken = report.violations.size() + test::broken_laws(model_).size();
     const ModelPose bind = *bind_pose(model_.source());
     const auto errors = measure_weight_errors(model_, 0, kNone, {&bind, 1});
-    std::printf(
-        "| %s | %llu | %llu | %.1g | %.1g | %.1g | %.2g | %.3g | %zu |\n", trouble.c_str(),
-        static_cast<unsigned long long>(done_), static_cast<unsigned long long>(report.faces),
-        report.area_drift, report.weight_sum_error, errors ? errors->of_diagonal.maximum : -1.0,
-        report.smallest_angle, done_ > 0 ? 1e3 * seconds_ / static_cast<double>(done_) : 0, broken);
+    const double posed_error = errors ? errors->of_diagonal.maximum : -1.0,
+                 milliseconds = done_ > 0 ? 1e3 * seconds_ / static_cast<double>(done_) : 0;
+    std::printf("| %.4g | %llu | %llu | %.1g | %.1g | %.1g | %.2g | %.3g | %zu |\n", trouble,
+                static_cast<unsigned long long>(done_),
+                static_cast<unsigned long long>(report.faces), report.area_drift,
+                report.weight_sum_error, posed_error, report.smallest_angle, milliseconds, broken);
     std::fflush(stdout);
+    plot.x.push_back(trouble);
+    const std::array<double, 5> values = {posed_error, report.weight_sum_error, report.area_drift,
+                                          report.smallest_angle, milliseconds};
+    for (std::size_t i = 0; i < values.size(); ++i) plot.series[i].values.push_back(values[i]);
   }
 
  private:
@@ -54,18 +61,37 @@ class Trial {
   std::uint64_t done_ = 0, refused_ = 0;
 };
 
-void print_head(const char* title, const char* trouble) {
-  std::printf(
-      "\n%s\n\n| %s | operations | faces | area drift | weight sums | posed error | angle p1 | ms "
-      "per operation | broken laws |\n|---|---|---|---|---|---|---|---|---|\n",
-      title, trouble);
-}
+/// One table: the head is printed at its begin, the plot written at its end.
+class Table {
+ public:
+  Table(const char* file, const char* title, const char* detail, const char* trouble,
+        const std::filesystem::path& folder)
+      : folder_(folder), file_(file) {
+    plot_.title = std::string(title) + detail;
+    plot_.of_x = trouble;
+    for (const char* name :
+         {"posed error", "weight sums", "area drift", "angle p1, degrees", "ms per operation"})
+      plot_.series.push_back({name, {}});
+    std::printf(
+        "\n**%s**%s\n\n| %s | operations | faces | area drift | weight sums | posed error | angle "
+        "p1 | ms per operation | broken laws |\n|---|---|---|---|---|---|---|---|---|\n",
+        title, detail, trouble);
+  }
+  ~Table() {
+    if (folder_.empty()) return;
+    if (const auto path = folder_ / file_; !write_svg(plot_, path))
+      std::fprintf(stderr, "sunder-stress: cannot write \"%s\"\n", path.c_str());
+  }
+  Table(const Table&) = delete;
+  Table& operator=(const Table&) = delete;
 
-std::string number(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.3g", value);
-  return text.data();
-}
+  [[nodiscard]] Plot& plot() { return plot_; }
+
+ private:
+  std::filesystem::path folder_;
+  const char* file_;
+  Plot plot_;
+};
 
 CutOperation random_cut(const Character& source, Random& random) {
   const ModelPose pose = test::random_pose(source, random, 0.3);
@@ -88,17 +114,17 @@ TearOperation tear_on_a_side(const Character& source, const Vec3d& side, Random&
 }
 
 template <class Make>
-void print_sequence(Character character, std::initializer_list<int> counts, Make make) {
+void print_sequence(Character character, std::initializer_list<int> counts, Make make, Plot& plot) {
   Trial trial(std::move(character));
   int done = 0;
   for (const int count : counts) {
     for (; done < count; ++done) trial.operate(make(trial.model().source()));
-    trial.print_row(std::to_string(count));
+    trial.print_row(count, plot);
   }
 }
 
 /// Twenty operations on a tube that was scaled and moved.
-void print_moved(double scale, double offset, const std::string& trouble) {
+void print_moved(double scale, double offset, double trouble, Plot& plot) {
   Random random(7);
   Character tube = test::make_tube(12, 10, 3);
   for (Vec3f& position : tube.meshes[0].positions)
@@ -112,11 +138,11 @@ void print_moved(double scale, double offset, const std::string& trouble) {
     cut.pose = pose;
     trial.operate(cut);
   }
-  trial.print_row(trouble);
+  trial.print_row(trouble, plot);
 }
 
 /// Planes that pass a ring of vertices at a distance, one after another from both sides.
-void print_near_planes(double distance) {
+void print_near_planes(double distance, Plot& plot) {
   Trial trial(test::make_tube(12, 10, 3));
   const ModelPose pose = *bind_pose(trial.model().source());
   const auto positions = test::posed_positions(trial.model().source(), 0, pose);
@@ -128,27 +154,45 @@ void print_near_planes(double distance) {
                     Vec3d(0, i % 2 == 0 ? distance : -distance, 0);
     trial.operate(cut);
   }
-  trial.print_row(number(distance));
+  trial.print_row(distance, plot);
 }
 
 }  // namespace
 
-void print_trouble_tables() {
-  print_head("**Successive cuts** of a tube, in random poses", "cuts");
+void print_trouble_tables(const std::filesystem::path& folder) {
   Random random(1);
-  print_sequence(test::make_tube(12, 12, 4), {1, 3, 10, 30, 100, 300},
-                 [&](const Character& source) { return random_cut(source, random); });
-  print_head("**Tears of one region** of a ball of 6,966 faces, in random poses", "tears");
-  const Vec3d side = random.direction();
-  print_sequence(test::make_bumpy_ball(3485), {1, 10, 100, 300, 1000},
-                 [&](const Character& source) { return tear_on_a_side(source, side, random); });
-  print_head("**Scale**: twenty cuts of a tube of 3 m, scaled", "scale");
-  for (const double scale : {1e-4, 1e-2, 1.0, 1e2, 1e4}) print_moved(scale, 0, number(scale));
-  print_head("**Distance from the origin**: twenty cuts of a tube of 3 m", "metres");
-  for (const double offset : {0.0, 1e1, 1e2, 1e3, 1e4, 1e5}) print_moved(1, offset, number(offset));
-  print_head("**Planes next to vertices** of a tube of 3 m, at a distance", "metres");
+  {
+    Table table("stability_cuts.svg", "Successive cuts", " of a tube, in random poses", "cuts",
+                folder);
+    print_sequence(
+        test::make_tube(12, 12, 4), {1, 3, 10, 30, 100, 300},
+        [&](const Character& source) { return random_cut(source, random); }, table.plot());
+  }
+  {
+    Table table("stability_region.svg", "Tears of one region",
+                " of a ball of 6,966 faces, in random poses", "tears", folder);
+    const Vec3d side = random.direction();
+    print_sequence(
+        test::make_bumpy_ball(3485), {1, 10, 100, 300, 1000},
+        [&](const Character& source) { return tear_on_a_side(source, side, random); },
+        table.plot());
+  }
+  {
+    Table table("stability_scale.svg", "Scale", ": twenty cuts of a tube of 3 m, scaled", "scale",
+                folder);
+    for (const double scale : {1e-4, 1e-2, 1.0, 1e2, 1e4})
+      print_moved(scale, 0, scale, table.plot());
+  }
+  {
+    Table table("stability_offset.svg", "Distance from the origin",
+                ": twenty cuts of a tube of 3 m", "metres", folder);
+    for (const double offset : {0.0, 1e1, 1e2, 1e3, 1e4, 1e5})
+      print_moved(1, offset, offset, table.plot());
+  }
+  Table table("stability_near.svg", "Planes next to vertices", " of a tube of 3 m, at a distance",
+              "metres", folder);
   for (const double distance : {1e-2, 1e-4, 1e-6, 1e-8, 1e-12, 1e-16, 0.0})
-    print_near_planes(distance);
+    print_near_planes(distance, table.plot());
 }
 
 }  // namespace sunder::stress

@@ -23,14 +23,17 @@ class RimPlaces {
         options_(options),
         walls_(walls),
         builder_(builder),
-        directions_(stroke, builder.scratch()),
-        places_(&builder.scratch()) {}
+        places_(&builder.scratch()),
+        to_wall_(&builder.scratch()) {}
 
   ScratchVector<LipPlace> make() {
     locate();
     if (rim_.is_closed && rotate_to_first()) locate();
     measure();
-    for (LipPlace& place : places_) direct(place);
+    if (!find_walls()) return std::move(places_);
+    const BladeDirections directions(stroke_, builder_.scratch());
+    for (std::size_t i = 0; i <= count(); ++i)
+      if (is_near_wall(i)) direct(i, directions);
     find_lean();
     find_room();
     return std::move(places_);
@@ -140,8 +143,44 @@ class RimPlaces {
     return Vec3d(builder_.position(points[1]) - a).cross(Vec3d(builder_.position(points[2]) - a));
   }
 
-  void direct(LipPlace& place) {
-    const auto i = static_cast<std::size_t>(&place - places_.data());
+  /// Finds the edges that get walls now. @return whether there are any.
+  bool find_walls() {
+    to_wall_.assign(count() + 1, std::numeric_limits<double>::infinity());
+    bool is_any = false;
+    for (std::size_t i = 0; i < count(); ++i) {
+      LipPlace &a = places_[i], &b = places_[i + 1];
+      a.begins_wall =
+          a.is_ready && b.is_ready && !(a.is_tip() && b.is_tip()) &&
+          !std::binary_search(walls_.refused.begin(), walls_.refused.end(), rim_.half_edges[i]);
+      if (!a.begins_wall) continue;
+      is_any = true;
+      to_wall_[i] = to_wall_[i + 1] = 0;
+    }
+    if (!is_any) return false;
+    for_each_pair([&](std::size_t i, std::size_t by) {
+      const double step = norm(Vec3d(places_[i].at - places_[by].at));
+      to_wall_[i] = std::min(to_wall_[i], to_wall_[by] + step);
+    });
+    return true;
+  }
+  /// Whether the lean at a place may limit that of a wall, as find_lean() smooths it.
+  [[nodiscard]] bool is_near_wall(std::size_t i) const {
+    return to_wall_[i] <= 2 * lean_of(options_);
+  }
+
+  /// Calls pass(place, neighbour) along the rim and back, twice round a closed one.
+  template <class Pass>
+  void for_each_pair(Pass pass) {
+    for (int round = 0; round < (rim_.is_closed ? 2 : 1); ++round) {
+      for (std::size_t i = 1; i <= count(); ++i) pass(i, i - 1);
+      if (rim_.is_closed) pass(0, count());
+      for (std::size_t i = count(); i-- > 0;) pass(i, i + 1);
+      if (rim_.is_closed) pass(count(), 0);
+    }
+  }
+
+  void direct(std::size_t i, const BladeDirections& directions) {
+    LipPlace& place = places_[i];
     const std::size_t in = before(i), out = after(i);
     Vec3d across = Vec3d::Zero(), normal = Vec3d::Zero();
     for (const std::size_t of : {in, out}) {
@@ -149,24 +188,20 @@ class RimPlaces {
       across += outward(of);
       normal += face_normal(of);
     }
-    place.down = directions_.at(place.at);
+    place.down = directions.at(place.at);
     if (options_.all_layers && dot(normal, place.down) > 0) place.down = -place.down;
     across -= dot(across, place.down) * place.down;
     if (norm(across) > kLeastUnder) place.under = across / norm(across);
   }
 
   void find_lean() {
-    for (std::size_t i = 0; i < count(); ++i) limit_lean(i);
+    for (std::size_t i = 0; i < count(); ++i)
+      if (is_near_wall(i) && is_near_wall(i + 1)) limit_lean(i);
     const auto smooth = [&](std::size_t i, std::size_t by) {
       const double step = norm(Vec3d(places_[i].at - places_[by].at)) / lean_of(options_);
       places_[i].lean = std::min(places_[i].lean, places_[by].lean + 0.5 * step);
     };
-    for (int round = 0; round < (rim_.is_closed ? 2 : 1); ++round) {
-      for (std::size_t i = 1; i <= count(); ++i) smooth(i, i - 1);
-      if (rim_.is_closed) smooth(0, count());
-      for (std::size_t i = count(); i-- > 0;) smooth(i, i + 1);
-      if (rim_.is_closed) smooth(count(), 0);
-    }
+    for_each_pair(smooth);
   }
 
   /// Where the rim bends around the gap, walls that lean below the other lip come together. They
@@ -186,8 +221,9 @@ class RimPlaces {
   /// Walls get half of the room below, and nowhere much more than next to it.
   void find_room() {
     const double depth = options_.depth, lean = lean_of(options_);
-    for (LipPlace& place : places_) {
-      if (!place.is_ready || place.end != kNone || place.is_tip()) continue;
+    for (std::size_t i = 0; i <= count(); ++i) {
+      LipPlace& place = places_[i];
+      if (to_wall_[i] > 0 || place.end != kNone || place.is_tip()) continue;
       const Vec3d straight = 2 * depth * place.down, leaning = straight + 2 * lean * place.under;
       place.room = room_below(place.at, straight, walls_.submeshes, builder_.work());
       if (lean > 0 && place.room > 0)
@@ -210,8 +246,8 @@ class RimPlaces {
   const LipWallOptions& options_;
   const LipWalls& walls_;
   WallBuilder& builder_;
-  BladeDirections directions_;
   ScratchVector<LipPlace> places_;
+  ScratchVector<double> to_wall_;  ///< Per place: along the rim to the next edge with a wall.
 };
 
 }  // namespace

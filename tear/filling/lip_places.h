@@ -17,6 +17,7 @@ struct LipPlace {
   double lean = 1;              ///< Fraction of the lean that leaves the rows in order.
   double room = 1;              ///< Fraction of the depth for which there is room.
   bool is_ready = true;         ///< Whether it may get a wall now.
+  bool begins_wall = false;     ///< Whether the edge that begins here gets a wall now.
   Index end = kNone;            ///< Index of the end of an earlier wall that is here.
 
   [[nodiscard]] bool is_tip() const { return !(taper > 0); }
@@ -30,7 +31,7 @@ struct LipPlace {
 
 /// The places of a rim, one more than its half-edges. A closed rim, which ends with its first
 /// place, is rotated to begin at its first tip, if it has any; otherwise at a place that is not
-/// ready.
+/// ready. Directions, lean and room are those of the places that edges with walls need.
 [[nodiscard]] ScratchVector<LipPlace> lip_places(Rim& rim, const Stroke& stroke,
                                                  const LipWallOptions& options,
                                                  const LipWalls& walls, WallBuilder& builder);

@@ -66,7 +66,10 @@ class LipStrip {
     }
     if (borders.empty()) return 0;
     const bool is_built = builder_.add(borders, [&] { build(); });
-    if (!is_built) return 0;
+    if (!is_built) {
+      refuse();
+      return 0;
+    }
     keep_ends();
     return strips;
   }
@@ -78,9 +81,12 @@ class LipStrip {
   };
 
   [[nodiscard]] std::size_t count() const { return rim_.half_edges.size(); }
-  [[nodiscard]] bool has_wall(std::size_t edge) const {
-    const LipPlace &a = places_[edge], &b = places_[edge + 1];
-    return a.is_ready && b.is_ready && !(a.is_tip() && b.is_tip());
+  [[nodiscard]] bool has_wall(std::size_t edge) const { return places_[edge].begins_wall; }
+
+  void refuse() {
+    for (std::size_t i = 0; i < count(); ++i)
+      if (has_wall(i)) walls_.refused.push_back(rim_.half_edges[i]);
+    std::sort(walls_.refused.begin(), walls_.refused.end());
   }
 
   /// The borders at the end of an earlier wall, where this one goes on.
@@ -292,6 +298,7 @@ Index add_lip_walls(std::span<const Index> half_edges, const Stroke& stroke,
                     const LipWallOptions& options, LipWalls& walls, const Workpiece& work) {
   WallBuilder builder(work, options.material);
   builder.filling().use(walls.submeshes);
+  if (!(options.hold > 0)) walls.refused.clear();
   const Profile profile(options);
   Index count = 0;
   for (Rim& rim : chain_rims(half_edges, work.editor.surface(), work.editor.scratch())) {

@@ -26,9 +26,13 @@ struct LipWalls {
   };
   std::vector<End> ends;
   std::vector<FillingSubmesh> submeshes;
+  /// Half-edges of lips, ascending, whose walls could not be joined to the surface: they are tried
+  /// once more when the stroke is complete.
+  std::vector<Index> refused;
 
   void clear() {
     ends.clear();
+    refused.clear();
     submeshes.clear();
   }
 };

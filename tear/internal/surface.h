@@ -3,6 +3,7 @@
 #include <sunder/core/character.h>
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 namespace sunder::tear {
@@ -35,6 +36,8 @@ struct Surface {
   std::vector<Index> appended_side;  ///< One per point that the source does not have.
   std::vector<std::vector<bool>>
       is_shared_vertex;  ///< Per mesh: which source vertices are used by more than one fan.
+  /// Of the source, see find_cracks(): pairs (half-edge, half-edge across the crack), ascending.
+  std::vector<std::array<Index, 2>> cracks;
   Index non_manifold_edges =
       0;  ///< At build: edges with more than two faces, or with two that disagree in winding.
   Index non_manifold_half_edges = 0;  ///< At build: half-edges left unjoined for that reason.
@@ -60,6 +63,12 @@ struct Surface {
   [[nodiscard]] Index side(Index point) const {
     if (point >= source_point_count()) return appended_side[point - source_point_count()];
     return source_side.empty() ? 0 : source_side[point];
+  }
+
+  /// The half-edge across a crack from a half-edge of the source; kNone if there is no crack.
+  [[nodiscard]] Index across_crack(Index half_edge) const {
+    const auto at = std::lower_bound(cracks.begin(), cracks.end(), std::array{half_edge, Index{0}});
+    return at != cracks.end() && (*at)[0] == half_edge ? (*at)[1] : kNone;
   }
 
   static Index next(Index corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }

@@ -6,6 +6,7 @@
 #include "core/internal/ordered.h"
 #include "tear/filling/caps.h"
 #include "tear/geometry/tolerances.h"
+#include "tear/path/crack_points.h"
 #include "tear/sheet/open_sheet.h"
 #include "tear/sheet/sections.h"
 #include "tear/surface/improve.h"
@@ -146,7 +147,7 @@ void cut_surface(const PlaneCut& cut, const Workpiece& work, Outcome& outcome) {
   const SheetOpening opening = open_sheet(sheet, faces, cut.caps, work, outcome.borders.lips);
   report.runs = opening.runs;
   report.faces_crossed = opening.faces_crossed;
-  report.blocked = opening.blocked;
+  report.blocked = opening.blocked + match_crack_points(before, work);
   report.length_posed = opening.length_posed;
   if (cut.caps) add_caps(opening, normal, cut.cap_material, work, report);
   improve_faces(before, work.editor);

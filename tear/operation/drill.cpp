@@ -6,6 +6,7 @@
 #include "core/internal/ordered.h"
 #include "tear/filling/bore_wall.h"
 #include "tear/geometry/tolerances.h"
+#include "tear/path/crack_points.h"
 #include "tear/sheet/gap.h"
 #include "tear/surface/improve.h"
 
@@ -144,7 +145,7 @@ void drill_surface(const Bore& bore, const Workpiece& work, Outcome& outcome) {
   const GapRemoval removal = remove_bore(bore, work);
   report.runs = removal.faces_removed > 0 ? 1 : 0;
   report.faces_crossed = removal.faces_crossed;
-  report.blocked = removal.blocked;
+  report.blocked = removal.blocked + match_crack_points(before, work);
   report.area_removed_posed = removal.area_posed;
   improve_faces(before, work.editor);
   if (bore.wall)

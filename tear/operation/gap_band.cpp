@@ -9,6 +9,7 @@
 #include "tear/geometry/tolerances.h"
 #include "tear/internal/surface.h"
 #include "tear/operation/walls_in_gap.h"
+#include "tear/path/crack_points.h"
 #include "tear/path/imprint_point.h"
 #include "tear/path/trace.h"
 #include "tear/surface/improve.h"
@@ -103,6 +104,7 @@ void GapBand::catch_up(const Workpiece& work, Outcome& outcome) {
   const EditLog::Mark before = work.editor.mark();
   remove_pending(pending_.plane->standing_on(pending_.plane->reach()[2]), work, outcome);
   pending_.plane.reset();
+  outcome.report.blocked += match_crack_points(before, work);
   improve_faces(before, work.editor);
 }
 

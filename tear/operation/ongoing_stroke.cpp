@@ -6,6 +6,7 @@
 #include "tear/internal/surface.h"
 #include "tear/operation/all_layers.h"
 #include "tear/operation/nearest_layer.h"
+#include "tear/path/crack_points.h"
 #include "tear/path/entry.h"
 #include "tear/surface/improve.h"
 
@@ -85,6 +86,7 @@ void OngoingStroke::extend(const Blade& to, const Workpiece& work, Outcome& outc
     tear_all_layers(*plane, work, outcome);
   else
     tear_nearest_layer(*plane, work, tip_, outcome);
+  outcome.report.blocked += match_crack_points(before, work);
   improve_faces(before, work.editor);
   outcome.before_walls.reset();
   if (outcome.report.segments == 1) outcome.before_walls = work.editor.log.extent();

@@ -109,8 +109,11 @@ void describe_rim(const RemovedFaces& removed, const RemovedParts& parts, CellSi
 class FacesInside {
  public:
   /// @param faces  as they were imprinted.
-  FacesInside(CellSides& sides, std::span<const CellFace> faces)
-      : sides_(sides), faces_(faces), crossed_(faces.size(), sides.memory()) {}
+  FacesInside(CellSides& sides, std::span<const CellFace> faces, bool has_turned_edges)
+      : sides_(sides),
+        faces_(faces),
+        has_turned_edges_(has_turned_edges),
+        crossed_(faces.size(), sides.memory()) {}
 
   /// Appends the faces and their posed area vectors. @return their posed area.
   double find(ScratchVector<Index>& inside, ScratchVector<Vec3d>& areas) {
@@ -151,14 +154,19 @@ class FacesInside {
     const Vec3d middle = (corners[0] + corners[1] + corners[2]) / 3;
     bool is_inside = true;
     for (Index w = 0; w < sides_.word_count() && is_inside; ++w)
-      CellSides::for_each_bit(ancestor.doubtful(w) & sides_.all(w), w, [&](Index side) {
+      CellSides::for_each_bit(doubtful(ancestor, w) & sides_.all(w), w, [&](Index side) {
         is_inside = is_inside && sides_.cell()[side].value(middle) > 0;
       });
     return is_inside;
   }
 
+  [[nodiscard]] Word doubtful(const CellSides::OfFace& ancestor, Index word) const {
+    return has_turned_edges_ ? ~Word{0} : ancestor.doubtful(word);
+  }
+
   CellSides& sides_;
   std::span<const CellFace> faces_;
+  bool has_turned_edges_;
   IndexMap crossed_;  ///< Index in faces_ of each face that may have children.
 };
 
@@ -230,7 +238,7 @@ GapRemoval remove_cell(CellSides& sides, std::span<const CellFace> faces, Surfac
   removal.blocked = imprint.blocked;
   ScratchVector<Index> inside(&sides.memory());
   ScratchVector<Vec3d> areas(&sides.memory());
-  removal.area_posed = FacesInside(sides, faces).find(inside, areas);
+  removal.area_posed = FacesInside(sides, faces, imprint.has_turned_edges).find(inside, areas);
   if (inside.empty()) return removal;
   removal.faces_removed = static_cast<Index>(inside.size());
   if (rim == nullptr) {

@@ -10,6 +10,7 @@
 #include "tear/internal/surface.h"
 #include "tear/path/snapping.h"
 #include "tear/sheet/face_lines.h"
+#include "tear/surface/flip_edge.h"
 #include "tear/surface/line_splitter.h"
 #include "tear/surface/sort_by_index.h"
 #include "tear/surface/split.h"
@@ -337,6 +338,8 @@ class Imprint {
           const double near = std::max(kSnapEdges, 4 * snap);
           if (fraction <= near || fraction >= 1 - near)
             crossing->point = fraction < 0.5 ? last : to;
+          else
+            crossing->point = turn_to_crossing(edge, last, fraction);
           continue;
         }
         posed_.pin(point, crossing->position);
@@ -345,6 +348,43 @@ class Imprint {
         last_fraction = crossing->fraction;
       }
     }
+  }
+
+  /// Where a sliver is as narrow as positions are stored, the crossing of its one long side is
+  /// stored as that of the other. The edge is turned, so that it goes through that point.
+  /// @param from  the begin of what is left of the edge.
+  /// @param fraction  the crossing between `from` and the end of the edge.
+  /// @return the point; kNone if there is none, or the edge cannot be turned.
+  Index turn_to_crossing(const CrossedEdge& edge, Index from, double fraction) {
+    const Surface& surface = editor_.surface();
+    Index half_edge = surface.find_half_edge(from, edge.to);
+    if (half_edge == kNone) {
+      half_edge = surface.find_half_edge(edge.to, from);
+      fraction = 1 - fraction;
+    }
+    // Between faces that the cell does not both cross, its lines would not meet.
+    if (half_edge == kNone || surface.twin[half_edge] == kNone || edge.faces[1] == kNone ||
+        !editor_.origins.is_inner_edge(half_edge))
+      return kNone;
+    const Index mesh = surface.triangle(half_edge / 3).mesh;
+    const auto bind = [&](Index corner) {
+      return Vec3d(
+          editor_.births.position(mesh, editor_.vertex_at(corner)).template cast<double>());
+    };
+    const Vec3d begin = bind(half_edge),
+                at = begin + fraction * (bind(Surface::next(half_edge)) - begin);
+    double least = kStoredCoordinates * at.cwiseAbs().maxCoeff();
+    Index point = kNone;
+    for (const Index side : {half_edge, surface.twin[half_edge]}) {
+      const Index corner = Surface::previous(side);
+      const double away = norm(Vec3d(bind(corner) - at));
+      if (away > least) continue;
+      least = away;
+      point = surface.corner_point[corner];
+    }
+    if (point == kNone || !flip_edge(half_edge, editor_)) return kNone;
+    result_.has_turned_edges = true;
+    return point;
   }
 
   /// @param likely  a half-edge that may be the one from `from` to `to`.

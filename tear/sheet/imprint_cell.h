@@ -12,6 +12,8 @@ struct CellImprint {
   /// Number of faces across which an edge could not be made, because they are too small or
   /// degenerate.
   Index blocked = 0;
+  /// Whether a child of one face may cover a part of its neighbour.
+  bool has_turned_edges = false;
 };
 
 /// Turns the lines in which the sides of a convex cell meet posed faces into edges of the surface.

@@ -5,6 +5,7 @@
 
 #include "core/internal/prefetch.h"
 #include "tear/internal/surface.h"
+#include "tear/surface/cracks.h"
 #include "tear/surface/joined_meshes.h"
 
 namespace sunder::tear {
@@ -407,6 +408,7 @@ Surface build_surface(const Character& character) {
                   [](Index side) { return side == 0; }))
     surface.source_side = {};
   surface.point_corner.shrink_to_fit();
+  surface.cracks = find_cracks(character, surface);
   return surface;
 }
 

@@ -53,6 +53,7 @@ void MemoryUse::add(const Surface& surface) {
   add(surface.point_corner);
   add(surface.source_side);
   add(surface.appended_side);
+  add(surface.cracks);
   for (const auto& is_shared : surface.is_shared_vertex) add(is_shared);
 }
 

@@ -375,6 +375,9 @@ TEST(Degenerate, a_ring_separates_the_piece_inside) {
     tear_ring_in_sheet(static_cast<std::uint64_t>(seed));
 }
 
+/// The gap crosses a sliver of an older gap's rim where it is as narrow as positions are stored.
+TEST(Degenerate, a_ring_sets_free_what_is_in_it) { tear_ring_in_sheet(7659); }
+
 /// The path back snaps next to the place where it began.
 TEST(Degenerate, a_ring_meets_its_begin) {
   for (const std::uint64_t seed : {394u, 2484u, 4306u, 5099u, 5137u, 6481u})
