@@ -29,6 +29,7 @@ void drop_touching(ScratchVector<PointEdge>& edges) {
 template <class Visit>
 void for_each_run(const ScratchVector<PointEdge>& edges, Visit visit) {
   ScratchVector<Index> arrivals(edges.get_allocator());
+  arrivals.reserve(edges.size());
   for (const PointEdge& edge : edges) arrivals.push_back(edge[1]);
   std::sort(arrivals.begin(), arrivals.end());
   ScratchVector<bool> is_taken(edges.size(), false, edges.get_allocator());
@@ -146,6 +147,8 @@ void imprint_rest(const Sheet& sheet, std::span<const Index> faces,
 
 void note_borders(std::span<const Index> half_edges, const Surface& surface,
                   SheetOpening& opening) {
+  opening.left.reserve(opening.edges.size());
+  opening.right.reserve(opening.edges.size());
   for (std::size_t i = 0; i < opening.edges.size(); ++i) {
     const auto& [from, to] = opening.edges[i];
     const Index known = i < half_edges.size() ? half_edges[i] : kNone;
@@ -165,7 +168,9 @@ SheetOpening open_sheet(const Sheet& sheet, std::span<const Index> faces, bool k
                         const Workpiece& work, std::vector<LipPair>& lips) {
   SurfaceEditor& editor = work.editor;
   PosedPoints& posed = work.posed;
-  SheetOpening opening{ScratchVector<PointEdge>(&editor.scratch()), {}, {}};
+  SheetOpening opening{ScratchVector<PointEdge>(&editor.scratch()),
+                       ScratchVector<Index>(&editor.scratch()),
+                       ScratchVector<Index>(&editor.scratch())};
   std::span<const Index> half_edges;
   SheetWalk walk(sheet.plane, editor, posed);
   if (sheet.bounds.empty()) {
