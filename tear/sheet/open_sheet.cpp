@@ -6,6 +6,7 @@
 #include "tear/internal/surface.h"
 #include "tear/path/imprint_point.h"
 #include "tear/sheet/imprint_sheets.h"
+#include "tear/sheet/plane_scan.h"
 #include "tear/sheet/walk_sheet.h"
 
 namespace sunder::tear {
@@ -60,6 +61,28 @@ void for_each_run(const ScratchVector<PointEdge>& edges, Visit visit) {
 ScratchVector<Index> faces_across(const Sheet& sheet, const SurfaceEditor& editor,
                                   PosedPoints& posed) {
   const Surface& surface = editor.surface();
+  posed.compare_with(sheet.plane);
+  ScratchVector<Index> faces(&editor.scratch());
+  const auto add = [&](Index face) {
+    const Index* const points = &surface.corner_point[3 * std::size_t{face}];
+    const bool is_inside = posed.is_inside(editor, points[0]);
+    if (posed.is_inside(editor, points[1]) == is_inside &&
+        posed.is_inside(editor, points[2]) == is_inside)
+      return;
+    const auto has_corner_in = [&](const Sheet::Bound& bound) {
+      return std::any_of(points, points + 3, [&](Index point) {
+        return bound.side.contains(posed.position(editor, point));
+      });
+    };
+    if (std::all_of(sheet.bounds.begin(), sheet.bounds.end(), has_corner_in)) faces.push_back(face);
+  };
+  if (sheet.bounds.empty() && is_scanned(editor, posed)) {
+    const ScratchVector<Index> near = scan_faces(sheet.plane, editor, posed);
+    faces.reserve(near.size());
+    for (const Index face : near) add(face);
+    std::sort(faces.begin(), faces.end());
+    return faces;
+  }
   const Frame frame = posed.frame_along(
       axes_along(sheet.plane.normal,
                  sheet.bounds.empty() ? Vec3d(Vec3d::Zero()) : sheet.bounds[0].side.normal),
@@ -73,24 +96,8 @@ ScratchVector<Index> faces_across(const Sheet& sheet, const SurfaceEditor& edito
     return std::none_of(sides.begin(), sides.end(),
                         [&](const FramedPlaneSide& side) { return side.is_beside(box); });
   };
-  ScratchVector<Index> faces(&editor.scratch());
   faces.reserve(256);
-  posed.for_each_face(editor, frame, may_meet, [&](Index face) {
-    std::array<Vec3d, 3> corners;
-    for (Index k = 0; k < 3; ++k)
-      corners[k] = posed.position(editor, surface.corner_point[3 * face + k]);
-    const auto has_corner_in = [&](const PlaneSide& side) {
-      return std::any_of(corners.begin(), corners.end(),
-                         [&](const Vec3d& corner) { return side.contains(corner); });
-    };
-    const bool is_inside = sheet.plane.contains(corners[0]);
-    const bool is_across = sheet.plane.contains(corners[1]) != is_inside ||
-                           sheet.plane.contains(corners[2]) != is_inside;
-    if (is_across &&
-        std::all_of(sheet.bounds.begin(), sheet.bounds.end(),
-                    [&](const Sheet::Bound& bound) { return has_corner_in(bound.side); }))
-      faces.push_back(face);
-  });
+  posed.for_each_face(editor, frame, may_meet, add);
   std::sort(faces.begin(), faces.end());
   return faces;
 }
