@@ -3,6 +3,7 @@
 #include <sunder/core/math.h>
 
 #include <cmath>
+#include <memory_resource>
 #include <span>
 #include <vector>
 
@@ -37,7 +38,7 @@ struct Sheet {
     std::uint32_t sheet = kNone;
   };
   PlaneSide plane;
-  std::vector<Bound> bounds;
+  std::pmr::vector<Bound> bounds;
 };
 
 /// A convex cell: the intersection of its half-spaces.

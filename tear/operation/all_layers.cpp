@@ -5,7 +5,7 @@
 namespace sunder::tear {
 
 void tear_all_layers(const BladePlane& plane, const Workpiece& work, Outcome& outcome) {
-  Sheet sheet{plane.left_of(0), {}};
+  Sheet sheet{plane.left_of(0), ScratchVector<Sheet::Bound>(&work.editor.scratch())};
   for (const auto& reach : plane.reach()) sheet.bounds.push_back({plane.standing_on(reach), kNone});
   sheet.bounds.push_back({plane.standing_on(plane.from_progress(0)), kNone});
   const SheetOpening opening = open_sheet(sheet, faces_across(sheet, work.editor, work.posed),

@@ -83,9 +83,11 @@ Index find_bone(const Skeleton& skeleton, const std::string& name) {
 }
 
 /// Per bone: whether it is the given one or below it. Empty without a bone.
-std::vector<bool> subtree_of(const std::string& bone, const Skeleton& skeleton) {
-  if (bone.empty()) return {};
-  std::vector<bool> is_below(skeleton.bones.size(), false);
+ScratchVector<bool> subtree_of(const std::string& bone, const Skeleton& skeleton,
+                               ScratchMemory& scratch) {
+  ScratchVector<bool> is_below(&scratch);
+  if (bone.empty()) return is_below;
+  is_below.resize(skeleton.bones.size(), false);
   const Index root = find_bone(skeleton, bone);
   is_below[root] = true;
   for (Index i = root + 1; i < skeleton.bones.size(); ++i) {  // parents come first
@@ -136,12 +138,14 @@ void cut_surface(const PlaneCut& cut, const Workpiece& work, Outcome& outcome) {
   TearReport& report = outcome.report;
   const EditLog::Mark before = work.editor.mark();
   const Vec3d normal = cut.normal / norm(cut.normal);
-  Sheet sheet{{normal, dot(normal, cut.point)}, {}};
+  ScratchMemory& scratch = work.editor.scratch();
+  Sheet sheet{{normal, dot(normal, cut.point)}, ScratchVector<Sheet::Bound>(&scratch)};
+  sheet.bounds.reserve(cut.bounds.size());
   const Vec3d up = turned_to(cut.bounds, normal);
   for (std::size_t i = 0; i < cut.bounds.size(); ++i)
     if (const auto side = side_at(i, cut.bounds, up)) sheet.bounds.push_back({*side, kNone});
   const SectionLimits limits{cut.sections, cut.first_hit,
-                             subtree_of(cut.bone, work.editor.character().skeleton)};
+                             subtree_of(cut.bone, work.editor.character().skeleton, scratch)};
   const ScratchVector<Index> faces = faces_of_sections(
       sheet, limits, faces_across(sheet, work.editor, work.posed), work.editor, work.posed);
   const SheetOpening opening = open_sheet(sheet, faces, cut.caps, work, outcome.borders.lips);

@@ -152,10 +152,23 @@ void PieceSearch::step(Index front) {
     leave_face(front, newest);
 }
 
+/// Most faces next to one were visited by the same front: this finds out in a few steps.
+bool PieceSearch::has_visited(Index front, Index face) const {
+  const Index source_count = surface_.first_triangle.back();
+  if (face >= source_count) return appended_marks_[face - source_count] == front;
+  const Index cell = cells_.cell_of(face);
+  if (changed_cells_.is_clean(cell)) return false;
+  const Index first = changed_cells_.marks()[cell];
+  return first != kNone && cell_marks_[first + 1 + cells_.place_of(face)] == front;
+}
+
 void PieceSearch::leave_face(Index front, Index face) {
-  for (Index h = 3 * face; h < 3 * face + 3; ++h)
-    if (surface_.twin[h] != kNone) reach_face(front, surface_.twin[h] / 3);
-  if (face < surface_.first_triangle.back()) --cell_marks_[first_mark_of(cells_.cell_of(face))];
+  for (Index h = 3 * face; h < 3 * face + 3; ++h) {
+    const Index twin = surface_.twin[h];
+    if (twin != kNone && !has_visited(front, twin / 3)) reach_face(front, twin / 3);
+  }
+  if (face < surface_.first_triangle.back())
+    --cell_marks_[changed_cells_.marks()[cells_.cell_of(face)]];
 }
 
 void PieceSearch::leave_node(Index front, Index node) {

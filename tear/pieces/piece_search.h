@@ -61,6 +61,7 @@ class PieceSearch {
   void visit_face(Index front, Index face, Index& mark);
   void reach_node(Index front, Index node);
   void step(Index front);
+  [[nodiscard]] bool has_visited(Index front, Index face) const;
   void leave_face(Index front, Index face);
   void leave_node(Index front, Index node);
   void enter_changed_cells(Index front, Index node);

@@ -17,6 +17,7 @@ constexpr Index kCachedPoints = 8192;
 Status PosedPoints::begin(const Character& character, const ModelPose& pose) {
   if (Status status = pose_.set(character, pose); !status) return status;
   forest_.forget_pose();
+  has_pins_ = false;
   if (++epoch_ == 0) {  // wrapped around: once in 2^32 poses
     for (Known& known : known_) known.since = 0;
     epoch_ = 1;
@@ -40,13 +41,28 @@ const Vec3d& PosedPoints::look_up(const SurfaceEditor& editor, Index point) {
   const Index of = editor.surface().triangle(corner / 3).mesh, vertex = editor.vertex_at(corner);
   known_[point] = {pose_.position(mesh, vertex, editor.births.position(of, vertex),
                                   editor.births.influences(of, vertex)),
-                   epoch_};
+                   epoch_, 0};
   return known_[point].position;
 }
 
 void PosedPoints::pin(Index point, const Vec3d& position) {
   cover(point + 1);
-  known_[point] = {position, epoch_};
+  known_[point] = {position, epoch_, 0};
+  has_pins_ = true;
+}
+
+void PosedPoints::compare_with(const PlaneSide& plane) {
+  if (plane.normal == plane_.normal && plane.offset == plane_.offset) return;
+  plane_ = plane;
+  if (++plane_number_ < 1u << 31) return;
+  for (Known& known : known_) known.compared = 0;  // once in 2^31 planes
+  plane_number_ = 1;
+}
+
+bool PosedPoints::find_side(const SurfaceEditor& editor, Index point) {
+  const bool is_inside = plane_.contains(position(editor, point));
+  known_[point].compared = 2 * plane_number_ + (is_inside ? 1 : 0);
+  return is_inside;
 }
 
 void PosedPoints::fetch(const SurfaceEditor& editor, Index mesh,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "skinning/internal/character_pose.h"
+#include "tear/geometry/plane_side.h"
 #include "tear/posed/patch_forest.h"
 #include "tear/surface/surface_editor.h"
 
@@ -34,6 +35,18 @@ class PosedPoints {
     return point < known_.size() && known_[point].since == epoch_ ? &known_[point].position
                                                                   : nullptr;
   }
+
+  /// Sets the plane of is_inside().
+  void compare_with(const PlaneSide& plane);
+  /// Whether a point is inside the half-space set last. Computed once per point.
+  [[nodiscard]] bool is_inside(const SurfaceEditor& editor, Index point) {
+    if (point < known_.size() && known_[point].since == epoch_ &&
+        known_[point].compared >> 1 == plane_number_)
+      return (known_[point].compared & 1) != 0;
+    return find_side(editor, point);
+  }
+  /// Whether a point was pinned since begin().
+  [[nodiscard]] bool has_pins() const { return has_pins_; }
 
   /// Prefetches the memory that is read to pose a point.
   void fetch(const SurfaceEditor& editor, Index point) const;
@@ -97,13 +110,18 @@ class PosedPoints {
 
   struct Known {
     Vec3d position = Vec3d::Zero();
-    std::uint32_t since = 0;  ///< Epoch in which it was computed or pinned.
+    std::uint32_t since = 0;     ///< Epoch in which it was computed or pinned.
+    std::uint32_t compared = 0;  ///< Twice the number of a plane, and 1 if the point is inside.
   };
   [[nodiscard]] const Vec3d& look_up(const SurfaceEditor& editor, Index point);
+  [[nodiscard]] bool find_side(const SurfaceEditor& editor, Index point);
 
   CharacterPose pose_;
   std::vector<Known> known_;
   std::uint32_t epoch_ = 0;  ///< Epoch of the pose: a new epoch invalidates all positions at once.
+  PlaneSide plane_;          ///< Of is_inside().
+  std::uint32_t plane_number_ = 1;  ///< Below 2^31.
+  bool has_pins_ = false;
   PatchForest forest_;
 };
 

@@ -21,6 +21,7 @@ FaceLines::FaceLines(Index face, const std::array<Index, 3>& points,
       first_new_(editor.surface().triangle_count()),
       drawn_(&editor.scratch()) {
   children_.reserve(children.size() + 8);
+  drawn_.reserve(8);
   children_.push_back(face);
   for (const auto& [parent, child] : children) children_.push_back(child);
   origin_ = posed.position(editor, points[0]);
@@ -84,7 +85,7 @@ bool FaceLines::turn(Index half_edge) {
          flip_edge(half_edge, editor_);
 }
 
-bool FaceLines::draw(Index from, Index to, std::vector<PointEdge>& edges) {
+bool FaceLines::draw(Index from, Index to, ScratchVector<PointEdge>& edges) {
   const auto first = static_cast<std::ptrdiff_t>(drawn_.size());
   const bool is_drawn = draw(from, to);
   edges.insert(edges.end(), drawn_.begin() + first, drawn_.end());

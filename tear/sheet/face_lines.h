@@ -2,7 +2,6 @@
 
 #include <array>
 #include <span>
-#include <vector>
 
 #include "tear/posed/posed_points.h"
 #include "tear/surface/open.h"
@@ -28,8 +27,8 @@ class FaceLines {
   /// @param edges  appended, in order from `from` to `to`.
   /// @return false if the faces are too small or degenerate; the edges made until then are
   ///         appended.
-  bool draw(Index from, Index to, std::vector<PointEdge>& edges);
-  /// The same without the list of edges. Does not allocate.
+  bool draw(Index from, Index to, ScratchVector<PointEdge>& edges);
+  /// The same without the list of edges.
   bool draw(Index from, Index to);
 
  private:

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <memory_resource>
 
 #include "core/internal/ordered.h"
 #include "tear/geometry/tolerances.h"
@@ -53,12 +54,22 @@ struct LineEnd {
 class Imprint {
  public:
   Imprint(std::span<const Sheet> sheets, SurfaceEditor& editor, PosedPoints& posed)
-      : sheets_(sheets), editor_(editor), posed_(posed) {
+      : sheets_(sheets),
+        editor_(editor),
+        posed_(posed),
+        faces_(&editor.scratch()),
+        crossings_(&editor.scratch()),
+        children_(&editor.scratch()),
+        corners_(&editor.scratch()),
+        result_{ScratchVector<ScratchVector<PointEdge>>(&editor.scratch())} {
     result_.edges.resize(sheets.size());
   }
 
   SheetImprint run(std::span<const Index> faces) {
     editor_.stage.begin();
+    faces_.reserve(faces.size());
+    crossings_.reserve(2 * sheets_.size() * faces.size());
+    for (auto& edges : result_.edges) edges.reserve(2 * faces.size());
     for (const Index face : faces) add_face(face);
     split_edges();
     index_children();
@@ -125,14 +136,16 @@ class Imprint {
       Index from, to;
       double stored;  ///< stored_part()
     };
-    std::vector<Edge> edges;
+    ScratchVector<Edge> edges(&editor_.scratch());
+    edges.reserve(crossings_.size());
     for (std::size_t begin = 0, end = 0; begin < crossings_.size(); begin = end) {
       const Index h = crossings_[begin].half_edge;
       while (end < crossings_.size() && crossings_[end].half_edge == h) ++end;
       edges.push_back({begin, end, editor_.surface().corner_point[h],
                        editor_.surface().corner_point[Surface::next(h)], stored_part(h, editor_)});
     }
-    std::vector<Crossing*> along;
+    ScratchVector<Crossing*> along(&editor_.scratch());
+    along.reserve(sheets_.size());
     for (const Edge& edge : edges) {
       along.clear();
       for (std::size_t i = edge.begin; i < edge.end; ++i) along.push_back(&crossings_[i]);
@@ -145,7 +158,7 @@ class Imprint {
 
   /// @param stored  the least fraction of the edge between two places that are stored as different
   ///         ones.
-  void split_edge(Index from, Index to, double stored, const std::vector<Crossing*>& along) {
+  void split_edge(Index from, Index to, double stored, std::span<Crossing* const> along) {
     Index last = from;
     double last_fraction = 0;
     for (Crossing* crossing : along) {
@@ -189,6 +202,7 @@ class Imprint {
   }
 
   void index_children() {
+    children_.reserve(editor_.surface().triangle_count() - editor_.stage.first_triangle());
     for (Index t = editor_.stage.first_triangle(); t < editor_.surface().triangle_count(); ++t) {
       const Index ancestor = editor_.stage.ancestor(t);
       if (ancestor < editor_.stage.first_triangle()) children_.push_back({ancestor, t});
@@ -267,10 +281,10 @@ class Imprint {
   std::span<const Sheet> sheets_;
   SurfaceEditor& editor_;
   PosedPoints& posed_;
-  std::vector<Face> faces_;
-  std::vector<Crossing> crossings_;
-  std::vector<std::array<Index, 2>> children_;  ///< (face, child), without the face itself.
-  std::map<std::array<Index, 3>, Index> corners_;
+  ScratchVector<Face> faces_;
+  ScratchVector<Crossing> crossings_;
+  ScratchVector<std::array<Index, 2>> children_;  ///< (face, child), without the face itself.
+  std::pmr::map<std::array<Index, 3>, Index> corners_;
   SheetImprint result_;
 };
 

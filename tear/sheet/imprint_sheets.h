@@ -1,7 +1,6 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
 #include "tear/geometry/plane_side.h"
 #include "tear/posed/posed_points.h"
@@ -9,11 +8,11 @@
 
 namespace sunder::tear {
 
-/// Result of imprinting sheets in the surface.
+/// Result of imprinting sheets in the surface. It lies in the scratch memory of the operation.
 struct SheetImprint {
   /// Per sheet: the edges in which it meets the faces, directed so that the inside of its plane is
   /// on their left.
-  std::vector<std::vector<PointEdge>> edges;
+  ScratchVector<ScratchVector<PointEdge>> edges;
   Index faces_crossed = 0;
   /// Number of faces across which an edge could not be made, because they are too small or
   /// degenerate.

@@ -6,6 +6,7 @@
 #include "tear/internal/surface.h"
 #include "tear/path/imprint_point.h"
 #include "tear/sheet/imprint_sheets.h"
+#include "tear/sheet/plane_scan.h"
 #include "tear/sheet/walk_sheet.h"
 
 namespace sunder::tear {
@@ -29,6 +30,7 @@ void drop_touching(ScratchVector<PointEdge>& edges) {
 template <class Visit>
 void for_each_run(const ScratchVector<PointEdge>& edges, Visit visit) {
   ScratchVector<Index> arrivals(edges.get_allocator());
+  arrivals.reserve(edges.size());
   for (const PointEdge& edge : edges) arrivals.push_back(edge[1]);
   std::sort(arrivals.begin(), arrivals.end());
   ScratchVector<bool> is_taken(edges.size(), false, edges.get_allocator());
@@ -59,6 +61,28 @@ void for_each_run(const ScratchVector<PointEdge>& edges, Visit visit) {
 ScratchVector<Index> faces_across(const Sheet& sheet, const SurfaceEditor& editor,
                                   PosedPoints& posed) {
   const Surface& surface = editor.surface();
+  posed.compare_with(sheet.plane);
+  ScratchVector<Index> faces(&editor.scratch());
+  const auto add = [&](Index face) {
+    const Index* const points = &surface.corner_point[3 * std::size_t{face}];
+    const bool is_inside = posed.is_inside(editor, points[0]);
+    if (posed.is_inside(editor, points[1]) == is_inside &&
+        posed.is_inside(editor, points[2]) == is_inside)
+      return;
+    const auto has_corner_in = [&](const Sheet::Bound& bound) {
+      return std::any_of(points, points + 3, [&](Index point) {
+        return bound.side.contains(posed.position(editor, point));
+      });
+    };
+    if (std::all_of(sheet.bounds.begin(), sheet.bounds.end(), has_corner_in)) faces.push_back(face);
+  };
+  if (sheet.bounds.empty() && is_scanned(editor, posed)) {
+    const ScratchVector<Index> near = scan_faces(sheet.plane, editor, posed);
+    faces.reserve(near.size());
+    for (const Index face : near) add(face);
+    std::sort(faces.begin(), faces.end());
+    return faces;
+  }
   const Frame frame = posed.frame_along(
       axes_along(sheet.plane.normal,
                  sheet.bounds.empty() ? Vec3d(Vec3d::Zero()) : sheet.bounds[0].side.normal),
@@ -72,24 +96,8 @@ ScratchVector<Index> faces_across(const Sheet& sheet, const SurfaceEditor& edito
     return std::none_of(sides.begin(), sides.end(),
                         [&](const FramedPlaneSide& side) { return side.is_beside(box); });
   };
-  ScratchVector<Index> faces(&editor.scratch());
   faces.reserve(256);
-  posed.for_each_face(editor, frame, may_meet, [&](Index face) {
-    std::array<Vec3d, 3> corners;
-    for (Index k = 0; k < 3; ++k)
-      corners[k] = posed.position(editor, surface.corner_point[3 * face + k]);
-    const auto has_corner_in = [&](const PlaneSide& side) {
-      return std::any_of(corners.begin(), corners.end(),
-                         [&](const Vec3d& corner) { return side.contains(corner); });
-    };
-    const bool is_inside = sheet.plane.contains(corners[0]);
-    const bool is_across = sheet.plane.contains(corners[1]) != is_inside ||
-                           sheet.plane.contains(corners[2]) != is_inside;
-    if (is_across &&
-        std::all_of(sheet.bounds.begin(), sheet.bounds.end(),
-                    [&](const Sheet::Bound& bound) { return has_corner_in(bound.side); }))
-      faces.push_back(face);
-  });
+  posed.for_each_face(editor, frame, may_meet, add);
   std::sort(faces.begin(), faces.end());
   return faces;
 }
@@ -146,6 +154,8 @@ void imprint_rest(const Sheet& sheet, std::span<const Index> faces,
 
 void note_borders(std::span<const Index> half_edges, const Surface& surface,
                   SheetOpening& opening) {
+  opening.left.reserve(opening.edges.size());
+  opening.right.reserve(opening.edges.size());
   for (std::size_t i = 0; i < opening.edges.size(); ++i) {
     const auto& [from, to] = opening.edges[i];
     const Index known = i < half_edges.size() ? half_edges[i] : kNone;
@@ -165,7 +175,9 @@ SheetOpening open_sheet(const Sheet& sheet, std::span<const Index> faces, bool k
                         const Workpiece& work, std::vector<LipPair>& lips) {
   SurfaceEditor& editor = work.editor;
   PosedPoints& posed = work.posed;
-  SheetOpening opening{ScratchVector<PointEdge>(&editor.scratch()), {}, {}};
+  SheetOpening opening{ScratchVector<PointEdge>(&editor.scratch()),
+                       ScratchVector<Index>(&editor.scratch()),
+                       ScratchVector<Index>(&editor.scratch())};
   std::span<const Index> half_edges;
   SheetWalk walk(sheet.plane, editor, posed);
   if (sheet.bounds.empty()) {

@@ -14,7 +14,7 @@ struct SheetOpening {
   /// The edges before they opened; the left lip is on the left of each edge.
   ScratchVector<PointEdge> edges;
   /// If asked for, half-edges of the faces on both sides of the edges: the borders of the lips.
-  std::vector<Index> left, right;
+  ScratchVector<Index> left, right;
   Index runs = 0;  ///< Number of connected runs of edges.
   Index faces_crossed = 0;
   Index blocked = 0;

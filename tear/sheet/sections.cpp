@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <memory_resource>
 
 #include "core/internal/ordered.h"
 #include "tear/geometry/tolerances.h"
@@ -30,7 +29,7 @@ class CrossedEdges {
 
   /// @return whether the plane crosses the edge of a half-edge.
   /// @param weight  the weight of the bones there; 0 if none are wanted.
-  bool cross(Index half_edge, const std::vector<bool>& is_wanted_bone, Vec3d& place,
+  bool cross(Index half_edge, const ScratchVector<bool>& is_wanted_bone, Vec3d& place,
              double& weight) {
     const Index twin = surface_.twin[half_edge];
     const Index h = std::min(half_edge, twin);  // kNone is the highest
@@ -54,7 +53,7 @@ class CrossedEdges {
 
  private:
   /// The weight of some bones at a corner.
-  [[nodiscard]] double weight_at(Index corner, const std::vector<bool>& is_wanted_bone) const {
+  [[nodiscard]] double weight_at(Index corner, const ScratchVector<bool>& is_wanted_bone) const {
     const Index mesh = surface_.triangle(corner / 3).mesh;
     const Skin& skin = editor_.character().skins[editor_.character().meshes[mesh].skin];
     double weight = 0;
@@ -99,8 +98,8 @@ class Sections {
  public:
   Sections(const Sheet& sheet, const SectionLimits& limits, const ScratchVector<Index>& faces,
            const SurfaceEditor& editor, PosedPoints& posed)
-      : lines_(faces.size()),
-        sets_(static_cast<Index>(faces.size()), *std::pmr::get_default_resource()) {
+      : lines_(faces.size(), &editor.scratch()),
+        sets_(static_cast<Index>(faces.size()), editor.scratch()) {
     CrossedEdges edges(sheet, editor, posed);
     const Surface& surface = editor.surface();
     for (Index i = 0; i < faces.size(); ++i) {
@@ -124,7 +123,8 @@ class Sections {
 
   /// Drops the sections that the wanted bones move by half or less.
   void drop_unmoved() {
-    std::vector<std::array<double, 2>> sums(lines_.size(), {0, 0});  // weight, length
+    // Weight and length.
+    ScratchVector<std::array<double, 2>> sums(lines_.size(), {0, 0}, lines_.get_allocator());
     for (Index i = 0; i < lines_.size(); ++i) {
       if (lines_[i].is_empty) continue;
       const double length = norm(lines_[i].ends[1] - lines_[i].ends[0]);
@@ -138,7 +138,7 @@ class Sections {
   }
 
   /// Marks the sections nearest to a place.
-  void choose(const Vec3d& place, std::vector<bool>& is_chosen) {
+  void choose(const Vec3d& place, ScratchVector<bool>& is_chosen) {
     double least = std::numeric_limits<double>::infinity(), farthest = 0;
     for (const Line& line : lines_) {
       if (line.is_empty) continue;
@@ -154,7 +154,7 @@ class Sections {
   }
 
   /// Marks the sections that a ray in the plane meets first.
-  void choose_first(const Vec3d& normal, const SectionRay& ray, std::vector<bool>& is_chosen) {
+  void choose_first(const Vec3d& normal, const SectionRay& ray, ScratchVector<bool>& is_chosen) {
     const Vec3d in_plane = ray.direction - dot(ray.direction, normal) * normal;
     const Vec3d along = in_plane / norm(in_plane), across = normal.cross(along);
     const auto distance_to = [&](const Line& line) {
@@ -179,7 +179,7 @@ class Sections {
   [[nodiscard]] bool is_empty(Index i) const { return lines_[i].is_empty; }
 
  private:
-  std::vector<Line> lines_;  ///< Per face.
+  ScratchVector<Line> lines_;  ///< Per face.
   DisjointSets sets_;
 };
 
@@ -192,7 +192,7 @@ ScratchVector<Index> faces_of_sections(const Sheet& sheet, const SectionLimits& 
   Sections sections(sheet, limits, faces, editor, posed);
   if (!limits.is_wanted_bone.empty()) sections.drop_unmoved();
   const bool chooses = !limits.places.empty() || limits.first_hit;
-  std::vector<bool> is_chosen(faces.size(), !chooses);
+  ScratchVector<bool> is_chosen(faces.size(), !chooses, &editor.scratch());
   for (const Vec3d& place : limits.places) sections.choose(place, is_chosen);
   if (limits.first_hit) sections.choose_first(sheet.plane.normal, *limits.first_hit, is_chosen);
   ScratchVector<Index> staying(&editor.scratch());

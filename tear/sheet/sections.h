@@ -4,7 +4,6 @@
 
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "tear/geometry/plane_side.h"
 #include "tear/posed/posed_points.h"
@@ -19,7 +18,7 @@ struct SectionLimits {
   std::span<const Vec3d> places = {};
   std::optional<SectionRay> first_hit = {};  ///< The section that it meets first is chosen.
   /// If not empty, per bone: sections that these bones move by half or less do not count.
-  std::vector<bool> is_wanted_bone = {};
+  ScratchVector<bool> is_wanted_bone;
 
   [[nodiscard]] bool has_any() const {
     return !places.empty() || first_hit || !is_wanted_bone.empty();

@@ -18,7 +18,9 @@ SheetWalk::SheetWalk(const PlaneSide& plane, SurfaceEditor& editor, PosedPoints&
       first_new_point_(editor.surface().point_count()),
       edges_(&editor.scratch()),
       half_edges_(&editor.scratch()),
-      left_over_(&editor.scratch()) {}
+      left_over_(&editor.scratch()) {
+  posed.compare_with(plane);
+}
 
 void SheetWalk::cross(std::span<const Index> faces) {
   edges_.reserve(2 * faces.size());
@@ -95,6 +97,7 @@ bool SheetWalk::go(LineSplitter& splitter, Index start) {
     }
     const bool leaves_at_next = is_inside(opposite) == is_inside(corners[0]);
     const Index exit = leaves_at_next ? Surface::next(entry) : Surface::previous(entry);
+    if (const Index twin = surface.twin[exit]; twin != kNone) editor_.fetch(twin / 3);
     const Crossing at = crossing(exit);
     if (at.at == (leaves_at_next ? At::end : At::begin)) {  // the opposite corner
       splitter.end();

@@ -40,9 +40,7 @@ class SheetWalk {
   };
   /// The corner of a face that is alone on its side; kNone if the face is not across.
   [[nodiscard]] Index lone_corner(Index face);
-  [[nodiscard]] bool is_inside(Index point) {
-    return plane_.contains(posed_.position(editor_, point));
-  }
+  [[nodiscard]] bool is_inside(Index point) { return posed_.is_inside(editor_, point); }
   [[nodiscard]] Crossing crossing(Index half_edge);
   void walk_from(Index face);
   /// Crosses faces from the splitter's newest point on. @return whether it came back to `start`.

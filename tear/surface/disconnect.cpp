@@ -106,13 +106,15 @@ Index separate_left_fan(const PathThroughPoint& path, SurfaceEditor& editor) {
   for (const Index h : {arriving, leaving, across_arriving, across_leaving})
     if (h == kNone || surface.twin[h] != kNone) return kNone;
   const Index mesh = surface.triangle(leaving / 3).mesh, vertex = editor.vertex_at(leaving);
+  const std::vector<Triangle>& triangles = editor.character().meshes[mesh].triangles;
   const auto leads_to = [&](Index first, Index last, Index& count) {
-    for (Index c = first; c != kNone; c = surface.rotate_ccw(c)) {
-      if (surface.triangle(c / 3).mesh != mesh || editor.vertex_at(c) != vertex) return false;
+    for (Index c = first, following = kNone;; c = following) {
+      const TriangleRef ref = surface.triangle(c / 3);
+      if (ref.mesh != mesh || triangles[ref.triangle][c % 3] != vertex) return false;
       ++count;
-      if (surface.rotate_ccw(c) == kNone) return c == last;
+      following = surface.rotate_ccw(c);
+      if (following == kNone) return c == last;
     }
-    return false;
   };
   Index left = 0, right = 0;
   if (!leads_to(leaving, Surface::next(arriving), left) ||

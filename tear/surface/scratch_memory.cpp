@@ -13,10 +13,6 @@ constexpr std::size_t kLeastBlock = 64 * 1024;
 void ScratchMemory::reset() {
   used_ = 0;
   if (blocks_.size() < 2) return;
-  if (is_fixed_) {
-    blocks_.resize(1);
-    return;
-  }
   // Replaces several blocks by one, so that the same operation finds room in it next time.
   const std::size_t total = bytes();
   blocks_.clear();
@@ -32,10 +28,9 @@ std::size_t ScratchMemory::bytes() const {
   return total;
 }
 
-void ScratchMemory::fix(std::size_t bytes) {
+void ScratchMemory::reserve(std::size_t bytes) {
   blocks_.clear();
   add_block(bytes);
-  is_fixed_ = true;
 }
 
 void ScratchMemory::add_block(std::size_t size) {

@@ -11,9 +11,8 @@ namespace sunder::tear {
 /// released all at once, and kept: an operation like one before it allocates nothing.
 class ScratchMemory final : public std::pmr::memory_resource {
  public:
-  /// Reserves `bytes`. Memory beyond them is released after the operation that needed it; without
-  /// this call it is kept.
-  void fix(std::size_t bytes);
+  /// Reserves `bytes`. An operation that needs more allocates it, once: it is kept.
+  void reserve(std::size_t bytes);
 
   /// Releases all that was handed out.
   void reset();
@@ -50,7 +49,6 @@ class ScratchMemory final : public std::pmr::memory_resource {
 
   std::vector<Block> blocks_;  ///< Memory is taken from the last block.
   std::size_t used_ = 0;       ///< Bytes of the last block.
-  bool is_fixed_ = false;
 };
 
 template <class T>

@@ -53,7 +53,7 @@ void SurfaceEditor::fetch(Index triangle) const {
 void SurfaceEditor::reserve(const TornCapacity& capacity) {
   sides.reserve();
   room.reserve(capacity);
-  if (room.is_fixed()) scratch_.fix(kScratchPerTriangle * capacity.triangles + kLeastScratch);
+  if (room.is_fixed()) scratch_.reserve(kScratchPerTriangle * capacity.triangles + kLeastScratch);
   if (room.is_fixed()) changed_cells.update();
 }
 

@@ -159,16 +159,33 @@ TEST(Capacity, extending_a_stroke_allocates_nothing) {
   }
 }
 
-TEST(Capacity, a_warm_cut_allocates_nothing) {
+/// Cuts across a tube of which half goes exactly through vertices, and that are bounded and limited
+/// in turn: where a cut is simple, faces are crossed in another way.
+PlaneCut cut_across(std::uint64_t seed, bool caps, Random& random) {
+  PlaneCut cut;
+  cut.caps = caps;
+  cut.point = {0, random.uniform(1, 2), 0};
+  cut.normal = random.direction();
+  if (seed % 2 == 1) cut.normal.y() = 0;  // the tube has vertices above one another
+  if (seed % 5 == 2) {
+    const Vec3d x = cut.normal.unitOrthogonal(), y = cut.normal.normalized().cross(x);
+    for (const auto& [u, v] : {std::array{-3.0, -3.0}, {3.0, -3.0}, {3.0, 3.0}, {-3.0, 3.0}})
+      cut.bounds.push_back(cut.point + u * x + v * y);
+  }
+  if (seed % 5 == 3) cut.sections = {cut.point};
+  if (seed % 5 == 4) cut.bone = "bone1";
+  return cut;
+}
+
+/// Cuts and undoes until the memory is warm, and counts what the same calls allocate then.
+void expect_warm_cuts(bool caps) {
   const Character tube = test::make_tube(20, 24, 8);
-  int divided = 0;
-  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+  int divided = 0, capped = 0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
     TornModel model = make_model(tube, kRoom);
-    PlaneCut cut;
-    cut.point = {0, random.uniform(1, 2), 0};
-    cut.normal = random.direction();
+    const PlaneCut cut = cut_across(seed, caps, random);
     const ModelPose pose = test::random_pose(tube, random, 0.2, 1.0),
                     other = test::random_pose(tube, random, 0.2, 1.0);
     ChangeRecord change;
@@ -180,10 +197,19 @@ TEST(Capacity, a_warm_cut_allocates_nothing) {
     const auto report = model.cut(pose, cut, &change);
     EXPECT_EQ(test::allocation_count(), before);
     ASSERT_TRUE(report) << report.error().text();
+    const std::uint64_t before_undo = test::allocation_count();
+    EXPECT_TRUE(model.undo(&change));
+    EXPECT_EQ(test::allocation_count(), before_undo);
     divided += report->pieces.size() > 1 ? 1 : 0;
+    capped += report->caps > 1 ? 1 : 0;
   }
-  EXPECT_GT(divided, 20);
+  EXPECT_GT(divided, 30);
+  EXPECT_EQ(capped > 30, caps);
 }
+
+TEST(Capacity, a_warm_cut_allocates_nothing) { expect_warm_cuts(false); }
+
+TEST(Capacity, a_warm_cut_with_caps_allocates_nothing) { expect_warm_cuts(true); }
 
 /// A stroke of a model that was torn in the same way before. @param moves  whether each blade is in
 /// another pose than the one before.
