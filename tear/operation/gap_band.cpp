@@ -273,7 +273,7 @@ void GapBand::remove(std::span<const PlaneSide> cell, std::span<const Side> side
   CellRim rim(work.editor.scratch());
   CellSides with_walls(cell, work.editor, work.posed);
   ScratchVector<CellFace> faces = faces_to_remove(with_walls, gap);
-  const bool had_walls = remove_walls_in_gap(cell, faces, *gap.plane, work, outcome);
+  const bool had_walls = remove_walls_in_gap(cell, faces, *gap.plane, work);
   CellSides without(cell, work.editor, work.posed);
   if (had_walls) faces = faces_to_remove(without, gap);
   const GapRemoval removal =

@@ -17,9 +17,8 @@ namespace {
 /// The walls of one cell.
 class WallsInGap {
  public:
-  WallsInGap(std::span<const PlaneSide> cell, const BladePlane& plane, const Workpiece& work,
-             Outcome& outcome)
-      : cell_(cell), plane_(plane), work_(work), outcome_(outcome), lips_(&scratch()) {}
+  WallsInGap(std::span<const PlaneSide> cell, const BladePlane& plane, const Workpiece& work)
+      : cell_(cell), plane_(plane), work_(work), lips_(&scratch()) {}
 
   /// @return whether any lip with a wall is partly inside the cell.
   bool find_lips(std::span<const CellFace> faces) {
@@ -118,11 +117,10 @@ class WallsInGap {
     ScratchVector<PointEdge> edges(&scratch());
     for (std::size_t i = 0; i < below.size(); ++i)
       edges.push_back({i == 0 ? point : below[i - 1], below[i]});
-    std::vector<LipPair>& lips = outcome_.borders.lips;
-    const std::size_t first = lips.size();
+    std::vector<LipPair> lips;  // no lips of the operation: one side is removed next
     open_edges(edges, {}, work_.editor, lips);
-    for (std::size_t i = first; i < lips.size(); ++i)
-      work_.posed.pin(lips[i].left, Vec3d(work_.posed.position(work_.editor, lips[i].right)));
+    for (const LipPair& lip : lips)
+      work_.posed.pin(lip.left, Vec3d(work_.posed.position(work_.editor, lip.right)));
   }
 
   /// Adds the faces of the wall that are connected to one of them, unless they reach a lip outside
@@ -146,15 +144,14 @@ class WallsInGap {
   std::span<const PlaneSide> cell_;
   const BladePlane& plane_;
   const Workpiece& work_;
-  Outcome& outcome_;
   ScratchVector<PointEdge> lips_;  ///< By their ends, because splits rename half-edges.
 };
 
 }  // namespace
 
 bool remove_walls_in_gap(std::span<const PlaneSide> cell, std::span<const CellFace> faces,
-                         const BladePlane& plane, const Workpiece& work, Outcome& outcome) {
-  WallsInGap walls(cell, plane, work, outcome);
+                         const BladePlane& plane, const Workpiece& work) {
+  WallsInGap walls(cell, plane, work);
   if (!walls.find_lips(faces)) return false;
   walls.remove();
   return true;

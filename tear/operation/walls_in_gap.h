@@ -3,7 +3,6 @@
 #include <span>
 
 #include "tear/geometry/blade_plane.h"
-#include "tear/operation/outcome.h"
 #include "tear/posed/workpiece.h"
 #include "tear/sheet/gap.h"
 
@@ -14,6 +13,6 @@ namespace sunder::tear {
 /// @param faces  the faces of which the cell will remove a part.
 /// @return whether there are any; the faces may have changed then.
 bool remove_walls_in_gap(std::span<const PlaneSide> cell, std::span<const CellFace> faces,
-                         const BladePlane& plane, const Workpiece& work, Outcome& outcome);
+                         const BladePlane& plane, const Workpiece& work);
 
 }  // namespace sunder::tear
