@@ -8,6 +8,7 @@
 #include "tear/geometry/tolerances.h"
 #include "tear/internal/surface.h"
 #include "tear/path/snapping.h"
+#include "tear/surface/flip_edge.h"
 
 namespace sunder::tear {
 
@@ -26,6 +27,7 @@ void SheetWalk::cross(std::span<const Index> faces) {
   edges_.reserve(2 * faces.size());
   half_edges_.reserve(2 * faces.size());
   left_over_.reserve(2 * faces.size());
+  for (const Index face : faces) turn_edges_at(face);
   for (const Index face : faces)
     if (lone_corner(face) != kNone) walk_from(face);
   std::sort(left_over_.begin(), left_over_.end());
@@ -44,6 +46,24 @@ Index SheetWalk::lone_corner(Index face) {
   for (Index k = 0; k < 3; ++k)
     if (inside[(k + 1) % 3] == inside[(k + 2) % 3]) return 3 * face + k;
   return kNone;
+}
+
+/// Edges between parts of one origin only belong to the triangulation that earlier operations left.
+/// Where the plane crosses one on its way round a point, the edge is flipped, so that it need not
+/// be split.
+void SheetWalk::turn_edges_at(Index face) {
+  const auto turn = [&](Index half_edge, bool is_lone_inside) {
+    if (!editor_.origins.is_inner_edge(half_edge)) return false;
+    const Surface& surface = editor_.surface();
+    const Index beyond = surface.corner_point[Surface::previous(surface.twin[half_edge])];
+    return is_inside(beyond) != is_lone_inside && flip_edge(half_edge, editor_);
+  };
+  for (bool has_turned = true; has_turned;) {
+    const Index lone = lone_corner(face);
+    if (lone == kNone) return;
+    const bool is_lone_inside = is_inside(editor_.surface().corner_point[lone]);
+    has_turned = turn(lone, is_lone_inside) || turn(Surface::previous(lone), is_lone_inside);
+  }
 }
 
 /// Computed in the direction of the lower half-edge; an end that would be stored as the crossing is

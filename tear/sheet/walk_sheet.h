@@ -42,6 +42,8 @@ class SheetWalk {
   [[nodiscard]] Index lone_corner(Index face);
   [[nodiscard]] bool is_inside(Index point) { return posed_.is_inside(editor_, point); }
   [[nodiscard]] Crossing crossing(Index half_edge);
+  /// Flips edges out of the way of the plane, from a face that it crosses.
+  void turn_edges_at(Index face);
   void walk_from(Index face);
   /// Crosses faces from the splitter's newest point on. @return whether it came back to `start`.
   bool go(LineSplitter& splitter, Index start);
