@@ -143,6 +143,13 @@ void TornModel::State::make_room_for_borders() {
                         borders_.of_operation.rim_points.size() + rim_points.size());
 }
 
+void TornModel::State::drop_removed_lips() {
+  const std::vector<Index>& corners = editor.surface().point_corner;
+  std::erase_if(borders_.of_call.lips, [&](const LipPair& lip) {
+    return corners[lip.left] == kNone || corners[lip.right] == kNone;
+  });
+}
+
 void TornModel::State::keep_borders() {
   const auto& [lips, rim_points] = borders_.of_call;
   borders_.of_operation.lips.insert(borders_.of_operation.lips.end(), lips.begin(), lips.end());

@@ -60,6 +60,7 @@ struct TornModel::State {
         take_back();
         return status;
       }
+      drop_removed_lips();
       report.weights = weigh_points_since(begin_of_call_, options.weights);
       count_changes_since(begin_of_call_, report);
       report.pieces = find_pieces_of_call(options.names_all_pieces, outcome);
@@ -171,6 +172,8 @@ struct TornModel::State {
   void begin_call();
   [[nodiscard]] TornPieces find_pieces_of_call(bool names_all, const tear::Outcome& outcome);
   void make_room_for_borders();
+  /// Forgets lips of the call whose walls a later step of it removed.
+  void drop_removed_lips();
   void keep_borders();
   void describe_call(ChangeRecord& change, bool is_detachment);
 
