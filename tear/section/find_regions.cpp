@@ -101,14 +101,14 @@ std::pmr::vector<FlatRegion> find_regions(std::span<const FlatLoop> all_loops,
       if (holders[k].empty()) is_hole[i] = loops[i].is_clockwise != loops[k].is_clockwise ? 1 : 0;
 
   std::pmr::vector<std::size_t> region_of(loops.size(), loops.size(), &memory);
-  // It belongs to the innermost outline that contains it. Among crossing loops there may be none;
-  // then it is its own outline.
+  // It belongs to the innermost outline of opposite direction that contains it. Among crossing
+  // loops there may be none; then it is its own outline.
   std::pmr::vector<std::size_t> outline_of(loops.size(), 0, &memory);
   for (std::size_t i = 0; i < loops.size(); ++i) {
     std::size_t best = i;
     if (is_hole[i] != 0)
       for (const std::size_t k : holders[i]) {
-        if (is_hole[k] != 0) continue;
+        if (is_hole[k] != 0 || loops[k].is_clockwise == loops[i].is_clockwise) continue;
         if (best == i || holders[k].size() > holders[best].size() ||
             (holders[k].size() == holders[best].size() && loops[k].area < loops[best].area))
           best = k;

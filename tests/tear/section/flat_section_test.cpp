@@ -351,6 +351,20 @@ TEST(FindRegions, keeps_bodies_in_one_another_apart) {
   EXPECT_THAT(regions[1].holes, ElementsAre(2));
 }
 
+TEST(FindRegions, holes_run_against_their_outline_even_if_loops_cross) {
+  for (int seed = 0; seed < case_count(2000); ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(static_cast<std::uint64_t>(seed));
+    std::vector<FlatLoop> loops(2 + random.index(6));
+    for (FlatLoop& loop : loops)
+      loop = star(random, 3 + random.index(8), {random.uniform(-1, 1), random.uniform(-1, 1)},
+                  random.uniform(0.1, 2));
+    for (const FlatRegion& region : find_regions(loops))
+      for (const Index hole : region.holes)
+        ASSERT_LT(area_of(loops[hole]) * area_of(loops[region.outline]), 0);
+  }
+}
+
 TEST(FindRegions, leaves_out_loops_without_area) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THAT(find_regions({}), IsEmpty());
