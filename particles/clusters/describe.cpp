@@ -185,9 +185,9 @@ void describe_front(Tape& tape, RepairScratch& of, const Band& band, Index point
     tape(of.beside[point].chain);
     tape(of.beside[point].place);
     if (!tape.is_reading() || band.growing != kNone) return;
-    // Points that the front has not reached yet have what an earlier band left there.
+    // Points that the front has not visited have what an earlier band left there.
     const BesideLip beside = of.beside[point];
-    if (of.band_front.is_reached_at(point))
+    if (of.band_front.has_visited(point))
       tape.require(beside.chain < band.chains.size() &&
                        beside.place < band.chains[beside.chain].places.size(),
                    "a point is beside a chain that does not exist");

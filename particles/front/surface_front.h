@@ -80,7 +80,8 @@ class SurfaceFront {
   void for_each_met(Visit visit) const {
     for (const Entry& entry : entries_) visit(entry.point);
   }
-  [[nodiscard]] bool is_reached_at(Index point) const { return is_reached(known_[point]); }
+  /// Whether run() has visited a point. It knows a distance of some points beyond the limit too.
+  [[nodiscard]] bool has_visited(Index point) const { return distance(point) < limit_; }
   /// Whether no point is left to reach.
   [[nodiscard]] bool is_done() const { return bucket_ >= buckets_.size(); }
   /// The distance of a point; infinite if the front has not reached it.
