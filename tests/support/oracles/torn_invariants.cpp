@@ -169,13 +169,22 @@ std::vector<std::string> broken_surface(const TornModel& model) {
 }
 
 bool is_clear_of_itself(const Character& source) {
-  std::set<std::array<float, 3>> places;
+  using At = std::array<float, 3>;
+  std::set<At> places;
+  std::set<std::array<At, 3>> faces;
   for (const Mesh& mesh : source.meshes)
-    for (const Triangle& triangle : mesh.triangles)
-      for (std::size_t k = 0; k < 3 && !is_retired(triangle); ++k) {
+    for (const Triangle& triangle : mesh.triangles) {
+      if (is_retired(triangle)) continue;
+      std::array<At, 3> face;
+      for (std::size_t k = 0; k < 3; ++k) {
         const Vec3f& position = mesh.positions[triangle[k]];
-        places.insert({position.x() + 0.0f, position.y() + 0.0f, position.z() + 0.0f});
+        face[k] = {position.x() + 0.0f, position.y() + 0.0f, position.z() + 0.0f};
+        places.insert(face[k]);
       }
+      std::sort(face.begin(), face.end());
+      const bool has_repeated_point = face[0] == face[1] || face[1] == face[2];
+      if (!has_repeated_point && !faces.insert(face).second) return false;
+    }
   const TopologyCounts counts = *count_topology(source);
   return counts.non_manifold_edges == 0 && counts.points == places.size();
 }

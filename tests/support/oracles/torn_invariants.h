@@ -21,8 +21,8 @@ std::vector<std::string> broken_laws(const TornModel& model);
 /// points that a tear creates on both cannot be told apart.
 std::vector<std::string> broken_surface(const TornModel& model);
 
-/// Whether no two surface points coincide and no edge has more than two faces, as broken_surface()
-/// requires.
+/// Whether no two surface points coincide, no two faces have the same points and no edge has more
+/// than two faces, as broken_surface() requires.
 bool is_clear_of_itself(const Character& source);
 
 /// No T-junctions: with the lips closed (tear sides ignored) the surface has the borders and
