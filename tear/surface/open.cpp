@@ -4,6 +4,7 @@
 
 #include "tear/internal/surface.h"
 #include "tear/surface/disconnect.h"
+#include "tear/surface/sort_by_index.h"
 
 namespace sunder::tear {
 namespace {
@@ -163,11 +164,10 @@ void open_edges(std::span<const PointEdge> edges, std::span<const Index> half_ed
     for (std::size_t fan = 1; fan < fans.count(); ++fan)
       opened.push_back({joint, {separate_fan(fans.corners(fan), fans.others(fan), editor), at}});
   });
-  const auto is_before = [](const OpenedJoint& a, const OpenedJoint& b) {
-    return a.joint != b.joint ? a.joint < b.joint : a.lips.left < b.lips.left;
-  };
-  if (!std::is_sorted(opened.begin(), opened.end(), is_before))
-    std::sort(opened.begin(), opened.end(), is_before);
+  sort_by_index(
+      opened, [](const OpenedJoint& of) { return of.lips.left; }, editor.scratch());
+  sort_by_index(
+      opened, [](const OpenedJoint& of) { return of.joint; }, editor.scratch());
   for (const OpenedJoint& joint : opened) lips.push_back(joint.lips);
 }
 
