@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/internal/ordered.h"
+#include "core/internal/prefetch.h"
 #include "tear/internal/surface.h"
 
 namespace sunder::tear {
@@ -48,7 +49,12 @@ Index PieceSearch::first_mark_of(Index cell) {
   cell_marks_.resize(count + 1 + face_count, kNone);
   cell_marks_[count] = static_cast<Index>(face_count);
   area_of_faces_ += cells_.area(cell);
+  fetch_faces(cell);  // most of them will be visited next
   return first = count;
+}
+
+void PieceSearch::fetch_faces(Index cell) const {
+  for (const Index face : cells_.faces(cell)) prefetch(&surface_.twin[3 * std::size_t{face}]);
 }
 
 void PieceSearch::bound_area_of(Index appended) {
@@ -199,6 +205,7 @@ void PieceSearch::enter_changed_cells(Index front, Index node) {
     return;
   }
   if (are_neighbours_left(node)) return;
+  fetch_faces(node);
   for (const Index face : cells_.faces(node))
     for (Index h = 3 * face; h < 3 * face + 3; ++h) {
       const Index twin = surface_.twin[h];
@@ -234,7 +241,7 @@ void PieceSearch::grow() {
 
 double PieceSearch::area_of(Index face) const {
   const TriangleRef ref = surface_.triangle(face);
-  const auto& [a, b, c] = editor_.connectivity.vertices_of(face);
+  const auto& [a, b, c] = editor_.character().meshes[ref.mesh].triangles[ref.triangle];
   const auto place = [&](Index vertex) -> Vec3d {
     return editor_.births.position(ref.mesh, vertex).cast<double>();
   };
@@ -242,31 +249,56 @@ double PieceSearch::area_of(Index face) const {
   return 0.5 * norm(Vec3d(ab.cross(ac)));
 }
 
-void PieceSearch::measure(Front& front) {
-  for (; front.measured < front.faces.size(); ++front.measured)
-    front.area += area_of(front.faces[front.measured]);
+void PieceSearch::measure(Front& front, std::size_t most_faces) {
+  const std::size_t unmeasured = front.faces.size() - front.measured;
+  const std::size_t end = front.measured + std::min(most_faces, unmeasured);
+  for (; front.measured < end; ++front.measured) front.area += area_of(front.faces[front.measured]);
+}
+
+Index PieceSearch::largest_of(std::span<const Index> parts) const {
+  Index best = parts[0];
+  for (const Index part : parts.subspan(1))
+    if (fronts_[part].area > fronts_[best].area) best = part;
+  return best;
+}
+
+/// Measures the faces of parts, those of the largest part first, until one is the largest whatever
+/// the areas of the others. @return that one; of equal ones the first.
+Index PieceSearch::measure_until_clear(std::span<const Index> parts) {
+  // Their rounded areas may exceed the bound by less than this.
+  constexpr double kSafety = 1.001;
+  double rest = kSafety * area_of_faces_;
+  const auto has_rest = [&](Index part) {
+    return fronts_[part].measured < fronts_[part].faces.size();
+  };
+  for (;;) {
+    const Index best = largest_of(parts);
+    const bool is_clear = std::all_of(parts.begin(), parts.end(), [&](Index part) {
+      const Front& of = fronts_[part];
+      return part == best || of.area + (has_rest(part) ? rest : 0) < fronts_[best].area;
+    });
+    const auto unmeasured = has_rest(best) ? std::find(parts.begin(), parts.end(), best)
+                                           : std::find_if(parts.begin(), parts.end(), has_rest);
+    if (is_clear || unmeasured == parts.end()) return best;
+    Front& front = fronts_[*unmeasured];
+    const double before = front.area;
+    measure(front, kFacesAtATime);
+    rest = std::max(0.0, rest - (front.area - before));
+  }
 }
 
 /// @param parts  of one former component, ascending by their least fronts.
 Index PieceSearch::find_body(std::span<const Index> parts) {
-  const auto largest = [&] {
-    Index best = parts[0];
-    for (const Index part : parts.subspan(1))
-      if (fronts_[part].area > fronts_[best].area) best = part;
-    return best;
-  };
-  Index best = largest();
-  const bool is_clear = std::all_of(parts.begin(), parts.end(), [&](Index part) {
-    return part == best || fronts_[part].area + area_of_faces_ < fronts_[best].area;
-  });
   // A part that is not known completely is larger than what is known of it.
   const auto incomplete =
       std::find_if(parts.begin(), parts.end(), [&](Index part) { return is_active(part); });
-  if (is_clear && (incomplete == parts.end() || *incomplete == best)) return best;
+  if (const Index best = measure_until_clear(parts);
+      incomplete == parts.end() || *incomplete == best)
+    return best;
   for (;;) {
     for (const Index part : parts) measure(fronts_[part]);
-    best = largest();
-    if (incomplete == parts.end() || *incomplete == best || !is_active(*incomplete)) return best;
+    const Index best = largest_of(parts);
+    if (*incomplete == best || !is_active(*incomplete)) return best;
     for (std::size_t turn = 0; turn < kStepsATurn && is_active(*incomplete); ++turn)
       step(*incomplete);
   }

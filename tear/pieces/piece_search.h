@@ -49,12 +49,14 @@ class PieceSearch {
     Index least = kNone;
   };
   static constexpr Index kNode = Index{1} << 31;
-  static constexpr std::size_t kStepsATurn = 16;
+  static constexpr std::size_t kStepsATurn = 16, kFacesAtATime = 64;
 
   [[nodiscard]] bool is_active(Index front) const {
     return !fronts_[front].open.empty() || !fronts_[front].at_change.empty();
   }
   [[nodiscard]] Index first_mark_of(Index cell);
+  /// Prefetches the neighbours of the faces of a cell.
+  void fetch_faces(Index cell) const;
   /// Adds the area of an appended face, or a bound of it, to area_of_faces_.
   void bound_area_of(Index appended);
   void reach_face(Index front, Index face);
@@ -70,8 +72,11 @@ class PieceSearch {
   [[nodiscard]] bool are_neighbours_left(Index cell) const;
   void join(Index a, Index b);
   void find_active();
-  void measure(Front& front);
+  /// Adds the areas of so many visited faces.
+  void measure(Front& front, std::size_t most_faces = kNone);
   [[nodiscard]] double area_of(Index face) const;
+  [[nodiscard]] Index largest_of(std::span<const Index> parts) const;
+  [[nodiscard]] Index measure_until_clear(std::span<const Index> parts);
   [[nodiscard]] Index find_body(std::span<const Index> parts);
 
   const SurfaceEditor& editor_;
