@@ -88,7 +88,7 @@ void StagedTear::tear_segment(const Blade& from, const Blade& to, Stages& stages
     for (std::size_t i = 0; i + 1 < path.points.size(); ++i)
       edges.push_back({path.points[i], path.points[i + 1]});
     const std::size_t first_lip = lips_.size();
-    open_edges(edges, path.half_edges, editor_, lips_);
+    open_edges(edges, path.half_edges, {}, editor_, lips_);
     for (std::size_t i = first_lip; i < lips_.size(); ++i)
       posed_.pin(lips_[i].left, Vec3d(posed_.position(editor_, lips_[i].right)));
   });

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <memory_resource>
+#include <numeric>
 
 #include "core/internal/ordered.h"
 #include "tear/filling/cap_shapes.h"
@@ -48,6 +49,38 @@ bool is_before(const Vec2d& a, const Vec2d& b) {
   return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
 }
 
+/// Where a loop passes a place several times, moves each of its points there into the section, on
+/// the left of the loop, by a tiny part of the edges there: the triangulation takes no loops that
+/// touch themselves.
+void part_touching_points(FlatLoop& loop, ScratchMemory& scratch) {
+  constexpr double kPart = 1e-7;
+  ScratchVector<std::size_t> order(loop.size(), 0, &scratch);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return loop[a] != loop[b] ? is_before(loop[a], loop[b]) : a < b;
+  });
+  const auto is_same = [&](std::size_t i, std::size_t k) {
+    return loop[order[i]] == loop[order[k]];
+  };
+  ScratchVector<std::pair<std::size_t, Vec2d>> moves(&scratch);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (!((i > 0 && is_same(i - 1, i)) || (i + 1 < order.size() && is_same(i, i + 1)))) continue;
+    const std::size_t at = order[i];
+    const Vec2d back = loop[(at + loop.size() - 1) % loop.size()] - loop[at],
+                ahead = loop[(at + 1) % loop.size()] - loop[at];
+    const double to_back = norm(back), to_ahead = norm(ahead);
+    if (!(to_back > 0) || !(to_ahead > 0)) continue;
+    Vec2d between = back / to_back + ahead / to_ahead;
+    const double turn = ahead.x() * back.y() - ahead.y() * back.x();
+    if (norm(between) < kPart)
+      between = Vec2d(-ahead.y(), ahead.x()) / to_ahead;  // straight on
+    else if (turn < 0)
+      between = -between;
+    moves.push_back({at, kPart * std::min(to_back, to_ahead) / norm(between) * between});
+  }
+  for (const auto& [at, move] : moves) loop[at] += move;
+}
+
 /// A region of the section, with the half-edges around it.
 struct CapRim {
   explicit CapRim(ScratchMemory& scratch) : half_edges(&scratch) {}
@@ -68,9 +101,10 @@ class Caps {
         report_(report),
         filling_("cap", work, material) {}
 
-  void add(std::span<const Index> half_edges) {
+  /// @param following  see SheetOpening.
+  void add(std::span<const Index> half_edges, std::span<const std::array<Index, 2>> following) {
     const Surface& surface = work_.editor.surface();
-    ScratchVector<Rim> rims = chain_rims(half_edges, surface, scratch());
+    ScratchVector<Rim> rims = chain_rims(half_edges, following, surface, scratch());
     ScratchVector<std::array<Index, 2>> closed_by_skin(&scratch());
     closed_by_skin.reserve(rims.size());
     for (Index i = 0; i < rims.size(); ++i) {
@@ -106,6 +140,7 @@ class Caps {
       loop.reserve(rim->half_edges.size());
       for (const Index h : rim->half_edges)
         loop.push_back(frame_.project(position(point_before(h))));
+      part_touching_points(loop, scratch());
       // The same start on both sides.
       const auto first = std::min_element(loop.begin(), loop.end(), is_before) - loop.begin();
       std::rotate(loop.begin(), loop.begin() + first, loop.end());
@@ -469,10 +504,25 @@ class Caps {
   Filling filling_;
 };
 
+/// Where the section touches itself, no cap may have joined some fans of a point.
+void separate_uncapped(const SheetOpening& opening, const Workpiece& work,
+                       std::vector<LipPair>& lips) {
+  ScratchVector<Index> corners(&work.editor.scratch());
+  for (const auto* following : {&opening.left_following, &opening.right_following})
+    for (const auto& [arriving, leaving] : *following) {
+      corners.push_back(Surface::next(arriving));
+      corners.push_back(leaving);
+    }
+  const std::size_t first_lip = lips.size();
+  separate_loose_fans(corners, work.editor, lips);
+  for (std::size_t i = first_lip; i < lips.size(); ++i)
+    work.posed.pin(lips[i].left, Vec3d(work.posed.position(work.editor, lips[i].right)));
+}
+
 }  // namespace
 
 void add_caps(const SheetOpening& opening, const Vec3d& normal, Index material,
-              const Workpiece& work, TearReport& report) {
+              const Workpiece& work, TearReport& report, std::vector<LipPair>& lips) {
   if (opening.edges.empty()) return;
   const Vec3d origin = work.posed.position(work.editor, opening.edges.front()[0]);
   const Vec3d away = std::abs(normal.x()) < 0.5 ? Vec3d(Vec3d::UnitX()) : Vec3d(Vec3d::UnitY());
@@ -480,8 +530,11 @@ void add_caps(const SheetOpening& opening, const Vec3d& normal, Index material,
   x /= norm(x);
   const SectionFrame frame{origin, x, normal.cross(x), normal};
   CapShapes shapes(work.editor.scratch());
-  Caps(frame, Facing::against_normal, material, shapes, work, report).add(opening.left);
-  Caps(frame, Facing::along_normal, material, shapes, work, report).add(opening.right);
+  Caps(frame, Facing::against_normal, material, shapes, work, report)
+      .add(opening.left, opening.left_following);
+  Caps(frame, Facing::along_normal, material, shapes, work, report)
+      .add(opening.right, opening.right_following);
+  separate_uncapped(opening, work, lips);
 }
 
 }  // namespace sunder::tear

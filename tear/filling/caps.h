@@ -15,7 +15,8 @@ namespace sunder::tear {
 /// counted in `open_sections` and stay open.
 /// @param normal  of the plane of the cut, unit length; it points to the left.
 /// @param material  of the caps; kNone: that of the rim.
+/// @param lips  appended: points that the opening left together for a cap that was not made.
 void add_caps(const SheetOpening& opening, const Vec3d& normal, Index material,
-              const Workpiece& work, TearReport& report);
+              const Workpiece& work, TearReport& report, std::vector<LipPair>& lips);
 
 }  // namespace sunder::tear

@@ -22,10 +22,11 @@ struct PlaneSide {
   /// Depends on the point alone, so that all faces agree about their common points. A point that
   /// rounding cannot tell from the plane is inside: a blade that lies in a face passes it and does
   /// not cut through it.
-  [[nodiscard]] bool contains(const Vec3d& point) const {
-    const double rounding = std::abs(normal.x() * point.x()) + std::abs(normal.y() * point.y()) +
-                            std::abs(normal.z() * point.z()) + std::abs(offset);
-    return value(point) >= -kOnPlaneTerms * rounding;
+  [[nodiscard]] bool contains(const Vec3d& point) const { return value(point) >= -rounding(point); }
+  /// The distance within which rounding cannot tell a point from the plane.
+  [[nodiscard]] double rounding(const Vec3d& point) const {
+    return kOnPlaneTerms * (std::abs(normal.x() * point.x()) + std::abs(normal.y() * point.y()) +
+                            std::abs(normal.z() * point.z()) + std::abs(offset));
   }
 };
 

@@ -72,6 +72,9 @@ static_assert(kTightSnapEdges < kSnapEdges && kSnapEdges < kSliverSizes &&
               kSliverSizes < kFarthestSnapEdges);
 /// Places nearer than four units in the last place of a stored coordinate are stored as one.
 inline constexpr double kStoredCoordinates = 0x1p-22;
+/// A point is on the plane of a cut if a change of its stored coordinates by less moves it there.
+inline constexpr double kOnPlaneCoordinates = 0x1p-23;
+static_assert(kOnPlaneCoordinates < kStoredCoordinates);
 
 // ---- Faces.
 

@@ -36,6 +36,8 @@ struct Surface {
   std::vector<Index> appended_side;  ///< One per point that the source does not have.
   std::vector<std::vector<bool>>
       is_shared_vertex;  ///< Per mesh: which source vertices are used by more than one fan.
+  /// Per mesh, the largest magnitude of a bind coordinate of the source.
+  std::vector<float> largest_coordinate;
   /// Of the source, see find_cracks(): pairs (half-edge, half-edge across the crack), ascending.
   std::vector<std::array<Index, 2>> cracks;
   Index non_manifold_edges =

@@ -153,7 +153,7 @@ void cut_surface(const PlaneCut& cut, const Workpiece& work, Outcome& outcome) {
   report.faces_crossed = opening.faces_crossed;
   report.blocked = opening.blocked + match_crack_points(before, work);
   report.length_posed = opening.length_posed;
-  if (cut.caps) add_caps(opening, normal, cut.cap_material, work, report);
+  if (cut.caps) add_caps(opening, normal, cut.cap_material, work, report, outcome.borders.lips);
   improve_faces(before, work.editor);
 }
 

@@ -127,7 +127,7 @@ void NearestLayerSegment::open(const Path& path) {
     edges.push_back({path.points[i], path.points[i + 1]});
   std::vector<LipPair>& lips = outcome_.borders.lips;
   const std::size_t first_lip = lips.size();
-  open_edges(edges, path.half_edges, editor, lips);
+  open_edges(edges, path.half_edges, {}, editor, lips);
   for (std::size_t i = first_lip; i < lips.size(); ++i)
     work_.posed.pin(lips[i].left, Vec3d(work_.posed.position(editor, lips[i].right)));
   torn_edges_ += edges.size();

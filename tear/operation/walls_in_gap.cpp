@@ -118,7 +118,7 @@ class WallsInGap {
     for (std::size_t i = 0; i < below.size(); ++i)
       edges.push_back({i == 0 ? point : below[i - 1], below[i]});
     std::vector<LipPair> lips;  // no lips of the operation: one side is removed next
-    open_edges(edges, {}, work_.editor, lips);
+    open_edges(edges, {}, {}, work_.editor, lips);
     for (const LipPair& lip : lips)
       work_.posed.pin(lip.left, Vec3d(work_.posed.position(work_.editor, lip.right)));
   }

@@ -1,8 +1,12 @@
 #include "tear/posed/posed_points.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 
+#include "core/internal/ordered.h"
 #include "core/internal/prefetch.h"
+#include "tear/geometry/tolerances.h"
 #include "tear/internal/surface.h"
 
 namespace sunder::tear {
@@ -54,15 +58,59 @@ void PosedPoints::pin(Index point, const Vec3d& position) {
 void PosedPoints::compare_with(const PlaneSide& plane) {
   if (plane.normal == plane_.normal && plane.offset == plane_.offset) return;
   plane_ = plane;
-  if (++plane_number_ < 1u << 31) return;
-  for (Known& known : known_) known.compared = 0;  // once in 2^31 planes
+  if (++plane_number_ < 1u << 30) return;
+  for (Known& known : known_) known.compared = 0;  // once in 2^30 planes
   plane_number_ = 1;
 }
 
-bool PosedPoints::find_side(const SurfaceEditor& editor, Index point) {
-  const bool is_inside = plane_.contains(position(editor, point));
-  known_[point].compared = 2 * plane_number_ + (is_inside ? 1 : 0);
-  return is_inside;
+std::uint32_t PosedPoints::find_side(const SurfaceEditor& editor, Index point) {
+  const Vec3d at = position(editor, point);
+  const double value = plane_.value(at), rounding = plane_.rounding(at);
+  const bool is_on_plane =
+      std::abs(value) <= rounding || (std::abs(value) <= farthest_on_plane(editor) &&
+                                      std::abs(value) <= stored_rounding(editor, point));
+  const std::uint32_t bits = (value >= -rounding ? kInside : 0) | (is_on_plane ? kOnPlane : 0);
+  known_[point].compared = 4 * plane_number_ + bits;
+  return bits;
+}
+
+namespace {
+
+/// How far a point that follows `linear` moves across a plane if each bind coordinate changes by 1.
+double steepness(const Vec3d& normal, const Mat3d& linear) {
+  double sum = 0;
+  for (int column = 0; column < 3; ++column) sum += std::abs(dot(normal, linear.col(column)));
+  return sum;
+}
+
+}  // namespace
+
+double PosedPoints::stored_rounding(const SurfaceEditor& editor, Index point) const {
+  const Surface& surface = editor.surface();
+  const Index corner = surface.point_corner[point];
+  if (corner == kNone) return 0;
+  const Index mesh = surface.triangle(corner / 3).mesh;
+  const std::vector<Affine3d>& palette = pose_.palette(editor.character().meshes[mesh].skin);
+  Mat3d linear = Mat3d::Zero();
+  for (const Influence& influence : editor.births.influences(mesh, editor.vertex_at(corner)))
+    linear += static_cast<double>(influence.weight) * palette[influence.slot].linear();
+  return kOnPlaneCoordinates * static_cast<double>(surface.largest_coordinate[mesh]) *
+         steepness(plane_.normal, linear);
+}
+
+void PosedPoints::bound_stored_rounding(const SurfaceEditor& editor) {
+  bound_of_ = {epoch_, plane_number_};
+  farthest_on_plane_ = 0;
+  const auto& meshes = editor.character().meshes;
+  for (std::size_t m = 0; m < meshes.size(); ++m) {
+    double steepest = 0;
+    for (const Affine3d& model_from_bind : pose_.palette(meshes[m].skin))
+      steepest = std::max(steepest, steepness(plane_.normal, model_from_bind.linear()));
+    // The weights of a vertex add up to 1 within rounding.
+    const double of_mesh = 1.001 * kOnPlaneCoordinates * steepest *
+                           static_cast<double>(editor.surface().largest_coordinate[m]);
+    farthest_on_plane_ = std::max(farthest_on_plane_, of_mesh);
+  }
 }
 
 void PosedPoints::fetch(const SurfaceEditor& editor, Index mesh,

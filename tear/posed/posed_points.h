@@ -3,6 +3,7 @@
 #include <sunder/core/skeleton.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <vector>
 
@@ -41,9 +42,21 @@ class PosedPoints {
   /// Whether a point is inside the half-space set last. Computed once per point.
   [[nodiscard]] bool is_inside(const SurfaceEditor& editor, Index point) {
     if (point < known_.size() && known_[point].since == epoch_ &&
-        known_[point].compared >> 1 == plane_number_)
-      return (known_[point].compared & 1) != 0;
-    return find_side(editor, point);
+        known_[point].compared >> 2 == plane_number_)
+      return (known_[point].compared & kInside) != 0;
+    return (find_side(editor, point) & kInside) != 0;
+  }
+  /// Whether a point lies on the plane set last, within the rounding of its stored position.
+  [[nodiscard]] bool is_on_plane(const SurfaceEditor& editor, Index point) {
+    if (point < known_.size() && known_[point].since == epoch_ &&
+        known_[point].compared >> 2 == plane_number_)
+      return (known_[point].compared & kOnPlane) != 0;
+    return (find_side(editor, point) & kOnPlane) != 0;
+  }
+  /// No point farther from the plane set last than this is on it.
+  [[nodiscard]] double farthest_on_plane(const SurfaceEditor& editor) {
+    if (bound_of_ != std::array{epoch_, plane_number_}) bound_stored_rounding(editor);
+    return farthest_on_plane_;
   }
   /// Whether a point was pinned since begin().
   [[nodiscard]] bool has_pins() const { return has_pins_; }
@@ -111,16 +124,23 @@ class PosedPoints {
   struct Known {
     Vec3d position = Vec3d::Zero();
     std::uint32_t since = 0;     ///< Epoch in which it was computed or pinned.
-    std::uint32_t compared = 0;  ///< Twice the number of a plane, and 1 if the point is inside.
+    std::uint32_t compared = 0;  ///< Four times the number of a plane, and the bits below.
   };
+  static constexpr std::uint32_t kInside = 1, kOnPlane = 2;
   [[nodiscard]] const Vec3d& look_up(const SurfaceEditor& editor, Index point);
-  [[nodiscard]] bool find_side(const SurfaceEditor& editor, Index point);
+  /// @return the bits of Known::compared.
+  [[nodiscard]] std::uint32_t find_side(const SurfaceEditor& editor, Index point);
+  /// How far the rounding of stored positions moves a point across the plane set last.
+  [[nodiscard]] double stored_rounding(const SurfaceEditor& editor, Index point) const;
+  void bound_stored_rounding(const SurfaceEditor& editor);
 
   CharacterPose pose_;
   std::vector<Known> known_;
   std::uint32_t epoch_ = 0;  ///< Epoch of the pose: a new epoch invalidates all positions at once.
   PlaneSide plane_;          ///< Of is_inside().
-  std::uint32_t plane_number_ = 1;  ///< Below 2^31.
+  std::uint32_t plane_number_ = 1;  ///< Below 2^30.
+  double farthest_on_plane_ = 0;
+  std::array<std::uint32_t, 2> bound_of_ = {};  ///< The epoch and plane_number_ of that.
   bool has_pins_ = false;
   PatchForest forest_;
 };

@@ -43,10 +43,14 @@ struct Face {
   std::array<bool, 3> is_reversed = {};  ///< Whether the edge runs against the face's half-edge.
 };
 
-/// One end of a line in a face: at a crossing of one of its edges, or at a corner where the sheet
-/// meets a bound.
+/// Per corner of a face: 1 inside the plane of a sheet, -1 outside, 0 on it.
+using CornerSides = std::array<int, 3>;
+
+/// One end of a line in a face: at a corner on the plane, at a crossing of one of its edges, or at
+/// a place where the sheet meets a bound.
 struct LineEnd {
   Vec3d position = Vec3d::Zero();
+  Index corner = kNone;  ///< Point.
   Index crossed_edge = kNone;
   Index bound = kNone;  ///< Index in Sheet::bounds.
 };
@@ -81,38 +85,61 @@ class Imprint {
   void add_face(Index triangle) {
     const Surface& surface = editor_.surface();
     Face face{triangle, {}, {}, {}};
-    bool is_crossed = false;
+    bool is_met = false;
     for (Index k = 0; k < 3; ++k) {
       const Index h = 3 * triangle + k, twin = surface.twin[h];
       face.points[k] = surface.corner_point[h];
       face.edges[k] = std::min(h, twin);  // kNone is the highest
       face.is_reversed[k] = twin < h;
     }
-    for (Index k = 0; k < 3; ++k)
-      for (Index sheet = 0; sheet < sheets_.size(); ++sheet) {
-        Crossing crossing;
-        if (!cross(face, k, sheet, crossing)) continue;
-        is_crossed = true;
+    for (Index sheet = 0; sheet < sheets_.size(); ++sheet) {
+      const CornerSides sides = sides_of(face, sheet);
+      is_met = is_met || is_outside(face, sheet, sides) || is_across(sides);
+      for (Index k = 0; k < 3; ++k) {
+        if (sides[k] * sides[(k + 1) % 3] >= 0) continue;
+        const Crossing crossing = crossing_of(face, k, sheet);
         if (is_within_bounds(sheet, crossing.position)) crossings_.push_back(crossing);
       }
-    if (is_crossed) faces_.push_back(face);
+    }
+    if (is_met) faces_.push_back(face);
   }
 
-  /// @return whether the sheet's plane crosses edge k of a face.
-  bool cross(const Face& face, Index k, Index sheet, Crossing& crossing) {
+  [[nodiscard]] CornerSides sides_of(const Face& face, Index sheet) {
+    posed_.compare_with(sheets_[sheet].plane);
+    CornerSides sides;
+    for (std::size_t k = 0; k < 3; ++k)
+      sides[k] = posed_.is_on_plane(editor_, face.points[k]) ? 0
+                 : posed_.is_inside(editor_, face.points[k]) ? 1
+                                                             : -1;
+    return sides;
+  }
+  static bool is_across(const CornerSides& sides) {
+    return *std::min_element(sides.begin(), sides.end()) < 0 &&
+           *std::max_element(sides.begin(), sides.end()) > 0;
+  }
+  /// Whether a face that is not across belongs to the outside of the plane. If it lies in the
+  /// plane, it belongs to the side of the body behind it.
+  [[nodiscard]] bool is_outside(const Face& face, Index sheet, const CornerSides& sides) {
+    if (*std::max_element(sides.begin(), sides.end()) > 0) return false;
+    if (*std::min_element(sides.begin(), sides.end()) < 0) return true;
+    const Vec3d a = posed_.position(editor_, face.points[0]),
+                b = posed_.position(editor_, face.points[1]),
+                c = posed_.position(editor_, face.points[2]);
+    return dot(Vec3d(b - a).cross(Vec3d(c - a)), sheets_[sheet].plane.normal) > 0;
+  }
+
+  /// Where the sheet's plane crosses edge k of a face, whose ends are on both sides of it.
+  [[nodiscard]] Crossing crossing_of(const Face& face, Index k, Index sheet) {
     const Index from = face.points[face.is_reversed[k] ? (k + 1) % 3 : k],
                 to = face.points[face.is_reversed[k] ? k : (k + 1) % 3];
     const Vec3d at_from = posed_.position(editor_, from), at_to = posed_.position(editor_, to);
     const PlaneSide& plane = sheets_[sheet].plane;
-    if (plane.contains(at_from) == plane.contains(at_to)) return false;
     const double value_from = plane.value(at_from), value_to = plane.value(at_to);
     const double fraction =
         value_from == value_to ? 0.0 : std::clamp(value_from / (value_from - value_to), 0.0, 1.0);
     const double slant = norm(at_to - at_from) / std::max(std::abs(value_from - value_to),
                                                           std::numeric_limits<double>::min());
-    crossing = {face.edges[k], sheet, fraction, at_from + fraction * (at_to - at_from),
-                slant,         kNone};
-    return true;
+    return {face.edges[k], sheet, fraction, at_from + fraction * (at_to - at_from), slant, kNone};
   }
 
   bool is_within_bounds(Index sheet, const Vec3d& position) const {
@@ -210,19 +237,38 @@ class Imprint {
     std::sort(children_.begin(), children_.end());
   }
 
-  /// The line in which a sheet meets a face, directed so that the inside of its plane is on the
-  /// left.
-  bool find_line(const Face& face, Index sheet, LineEnd& from, LineEnd& to) {
-    bool is_found = false;
-    const PlaneSide& plane = sheets_[sheet].plane;
-    for (Index k = 0; k < 3; ++k) {
-      Crossing crossing;
-      if (!cross(face, k, sheet, crossing)) continue;
-      const bool leaves_inside = plane.contains(posed_.position(editor_, face.points[k]));
-      (leaves_inside ? from : to) = {crossing.position, face.edges[k], kNone};
-      is_found = true;
+  /// Calls visit(from, to, edge) for each line in which a sheet meets a face, directed so that the
+  /// inside of its plane is on the left: the line across the face, or, if it belongs to the
+  /// outside, its edges on the plane. Those of two faces outside cancel each other.
+  template <class Visit>
+  void for_each_line(const Face& face, Index sheet, Visit visit) {
+    const CornerSides sides = sides_of(face, sheet);
+    LineEnd from, to;
+    if (is_across(sides)) {
+      for (Index k = 0; k < 3; ++k) {
+        const int next = sides[(k + 1) % 3], previous = sides[(k + 2) % 3];
+        if (sides[k] == 0)
+          (previous > 0 ? from : to) = at_corner(face, k);
+        else if (sides[k] * next < 0)
+          (next < 0 ? from : to) =
+              LineEnd{crossing_of(face, k, sheet).position, kNone, face.edges[k], kNone};
+      }
+      if (clip(sheet, from, to)) visit(from, to, kNone);
+    } else if (is_outside(face, sheet, sides)) {
+      for (Index k = 0; k < 3; ++k) {
+        if (sides[k] != 0 || sides[(k + 1) % 3] != 0) continue;
+        from = at_corner(face, (k + 1) % 3);
+        to = at_corner(face, k);
+        if (clip(sheet, from, to)) visit(from, to, face.edges[k]);
+      }
     }
-    if (!is_found) return false;
+  }
+  [[nodiscard]] LineEnd at_corner(const Face& face, Index k) {
+    return {posed_.position(editor_, face.points[k]), face.points[k], kNone, kNone};
+  }
+
+  /// Clips a line by the bounds of its sheet. @return false if nothing is left.
+  [[nodiscard]] bool clip(Index sheet, LineEnd& from, LineEnd& to) const {
     const Vec3d begin = from.position, way = to.position - from.position;
     double first = 0, last = 1;
     const auto& bounds = sheets_[sheet].bounds;
@@ -236,22 +282,25 @@ class Imprint {
           at_begin == at_end ? 0.0 : std::clamp(at_begin / (at_begin - at_end), 0.0, 1.0);
       if (!has_begin && at >= first) {
         first = at;
-        from = {begin + at * way, kNone, i};
+        from = LineEnd{begin + at * way, kNone, kNone, i};
       } else if (!has_end && at <= last) {
         last = at;
-        to = {begin + at * way, kNone, i};
+        to = LineEnd{begin + at * way, kNone, kNone, i};
       }
     }
     return first < last;
   }
 
-  Index point_of(const LineEnd& end, const Face& face, Index sheet, FaceLines& lines) {
+  /// @param edge  along which the line goes; kNone for a line across the face.
+  Index point_of(const LineEnd& end, const Face& face, Index sheet, Index edge, FaceLines& lines) {
+    if (end.corner != kNone) return end.corner;
     if (end.bound == kNone) return point_at_crossing(end.crossed_edge, sheet);
     const Index other = sheets_[sheet].bounds[end.bound].sheet;
-    if (other == kNone) return lines.imprint(end.position);
-    // The line of the other sheet ends in the same corner.
-    const std::array<Index, 3> key = {face.triangle, std::min(sheet, other),
-                                      std::max(sheet, other)};
+    if (other == kNone && edge == kNone) return lines.imprint(end.position);
+    // The line of the other sheet, or of the face beyond the edge, ends in the same point.
+    const std::array<Index, 3> key =
+        edge != kNone ? std::array{edge, sheet, static_cast<Index>(sheets_.size()) + end.bound}
+                      : std::array{face.triangle, std::min(sheet, other), std::max(sheet, other)};
     const auto known = corners_.find(key);
     if (known != corners_.end()) return known->second;
     return corners_[key] = lines.imprint(end.position);
@@ -265,15 +314,14 @@ class Imprint {
     FaceLines lines(face.triangle, face.points, std::span<const std::array<Index, 2>>(begin, end),
                     editor_, posed_);
     bool is_crossed = false, is_blocked = false;
-    for (Index sheet = 0; sheet < sheets_.size(); ++sheet) {
-      LineEnd from, to;
-      if (!find_line(face, sheet, from, to)) continue;
-      is_crossed = true;
-      const Index first = point_of(from, face, sheet, lines),
-                  last = point_of(to, face, sheet, lines);
-      if (first == kNone || last == kNone || !lines.draw(first, last, result_.edges[sheet]))
-        is_blocked = true;
-    }
+    for (Index sheet = 0; sheet < sheets_.size(); ++sheet)
+      for_each_line(face, sheet, [&](const LineEnd& from, const LineEnd& to, Index edge) {
+        is_crossed = true;
+        const Index first = point_of(from, face, sheet, edge, lines),
+                    last = point_of(to, face, sheet, edge, lines);
+        if (first == kNone || last == kNone || !lines.draw(first, last, result_.edges[sheet]))
+          is_blocked = true;
+      });
     result_.faces_crossed += is_crossed ? 1 : 0;
     result_.blocked += is_blocked ? 1 : 0;
   }

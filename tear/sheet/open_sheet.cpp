@@ -7,6 +7,7 @@
 #include "tear/path/imprint_point.h"
 #include "tear/sheet/imprint_sheets.h"
 #include "tear/sheet/plane_scan.h"
+#include "tear/sheet/section_corners.h"
 #include "tear/sheet/walk_sheet.h"
 
 namespace sunder::tear {
@@ -67,7 +68,9 @@ ScratchVector<Index> faces_across(const Sheet& sheet, const SurfaceEditor& edito
     const Index* const points = &surface.corner_point[3 * std::size_t{face}];
     const bool is_inside = posed.is_inside(editor, points[0]);
     if (posed.is_inside(editor, points[1]) == is_inside &&
-        posed.is_inside(editor, points[2]) == is_inside)
+        posed.is_inside(editor, points[2]) == is_inside &&
+        std::count_if(points, points + 3,
+                      [&](Index point) { return posed.is_on_plane(editor, point); }) < 2)
       return;
     const auto has_corner_in = [&](const Sheet::Bound& bound) {
       return std::any_of(points, points + 3, [&](Index point) {
@@ -89,8 +92,9 @@ ScratchVector<Index> faces_across(const Sheet& sheet, const SurfaceEditor& edito
       editor);
   ScratchVector<FramedPlaneSide> sides(&editor.scratch());
   sides.reserve(sheet.bounds.size() + 2);
-  sides.emplace_back(frame, sheet.plane);
-  sides.emplace_back(frame, PlaneSide{-sheet.plane.normal, -sheet.plane.offset});
+  const double on_plane = posed.farthest_on_plane(editor);
+  sides.emplace_back(frame, PlaneSide{sheet.plane.normal, sheet.plane.offset - on_plane});
+  sides.emplace_back(frame, PlaneSide{-sheet.plane.normal, -sheet.plane.offset - on_plane});
   for (const Sheet::Bound& bound : sheet.bounds) sides.emplace_back(frame, bound.side);
   const auto may_meet = [&](const FrameBox& box) {
     return std::none_of(sides.begin(), sides.end(),
@@ -152,8 +156,9 @@ void imprint_rest(const Sheet& sheet, std::span<const Index> faces,
   });
 }
 
-void note_borders(std::span<const Index> half_edges, const Surface& surface,
-                  SheetOpening& opening) {
+void note_borders(std::span<const Index> half_edges, std::span<const SectionCorner> section_corners,
+                  const Surface& surface, SheetOpening& opening) {
+  ScratchVector<Index> left_of_edge(opening.edges.size(), kNone, opening.left.get_allocator());
   opening.left.reserve(opening.edges.size());
   opening.right.reserve(opening.edges.size());
   for (std::size_t i = 0; i < opening.edges.size(); ++i) {
@@ -166,7 +171,16 @@ void note_borders(std::span<const Index> half_edges, const Surface& surface,
     if (right == kNone) continue;
     opening.left.push_back(left);
     opening.right.push_back(right);
+    left_of_edge[i] = left;
   }
+  for (const SectionCorner& corner : section_corners) {
+    const Index arriving = left_of_edge[corner.arriving], leaving = left_of_edge[corner.leaving];
+    if (arriving == kNone || leaving == kNone) continue;
+    opening.left_following.push_back({arriving, leaving});
+    opening.right_following.push_back({surface.twin[leaving], surface.twin[arriving]});
+  }
+  std::sort(opening.left_following.begin(), opening.left_following.end());
+  std::sort(opening.right_following.begin(), opening.right_following.end());
 }
 
 }  // namespace
@@ -177,7 +191,10 @@ SheetOpening open_sheet(const Sheet& sheet, std::span<const Index> faces, bool k
   PosedPoints& posed = work.posed;
   SheetOpening opening{ScratchVector<PointEdge>(&editor.scratch()),
                        ScratchVector<Index>(&editor.scratch()),
-                       ScratchVector<Index>(&editor.scratch())};
+                       ScratchVector<Index>(&editor.scratch()),
+                       ScratchVector<std::array<Index, 2>>(&editor.scratch()),
+                       ScratchVector<std::array<Index, 2>>(&editor.scratch())};
+  ScratchVector<SectionCorner> section_corners(&editor.scratch());
   std::span<const Index> half_edges;
   SheetWalk walk(sheet.plane, editor, posed);
   if (sheet.bounds.empty()) {
@@ -197,9 +214,13 @@ SheetOpening open_sheet(const Sheet& sheet, std::span<const Index> faces, bool k
   }
   for (const auto& [from, to] : opening.edges)
     opening.length_posed += norm(posed.position(editor, to) - posed.position(editor, from));
-  if (keeps_borders) note_borders(half_edges, editor.surface(), opening);
+  if (keeps_borders) {
+    if (half_edges.empty())
+      section_corners = find_section_corners(opening.edges, sheet.plane.normal, editor, posed);
+    note_borders(half_edges, section_corners, editor.surface(), opening);
+  }
   const std::size_t first_lip = lips.size();
-  open_edges(opening.edges, half_edges, editor, lips);
+  open_edges(opening.edges, half_edges, section_corners, editor, lips);
   for (std::size_t i = first_lip; i < lips.size(); ++i)
     posed.pin(lips[i].left, Vec3d(posed.position(editor, lips[i].right)));
   return opening;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -15,14 +16,18 @@ struct SheetOpening {
   ScratchVector<PointEdge> edges;
   /// If asked for, half-edges of the faces on both sides of the edges: the borders of the lips.
   ScratchVector<Index> left, right;
+  /// Where the section touches itself: half-edges of the borders and the ones that follow them
+  /// around the section, ascending. Several fans share the points there until the caps join them;
+  /// see separate_loose_fans().
+  ScratchVector<std::array<Index, 2>> left_following, right_following;
   Index runs = 0;  ///< Number of connected runs of edges.
   Index faces_crossed = 0;
   Index blocked = 0;
   double length_posed = 0;
 };
 
-/// The live faces, ascending, that have corners on both sides of the sheet's plane and that no
-/// bound excludes.
+/// The live faces, ascending, that have corners on both sides of the sheet's plane, or at least two
+/// on it, and that no bound excludes.
 [[nodiscard]] ScratchVector<Index> faces_across(const Sheet& sheet, const SurfaceEditor& editor,
                                                 PosedPoints& posed);
 

@@ -3,7 +3,7 @@
 namespace sunder::tear {
 
 PlaneDistances::PlaneDistances(const PlaneSide& plane, std::span<const Affine3d> palette,
-                               ScratchMemory& memory)
+                               double on_plane, ScratchMemory& memory)
     : rows_(palette.size(), &memory) {
   const Vec3d size = plane.normal.cwiseAbs();
   double steepest = 0, farthest = 0, in_model = std::abs(plane.offset);
@@ -32,7 +32,7 @@ PlaneDistances::PlaneDistances(const PlaneSide& plane, std::span<const Affine3d>
   steepest_ = std::max(static_cast<float>(steepest), std::numeric_limits<float>::min());
   farthest_ = static_cast<float>(farthest);
   slack_ = static_cast<float>(2 * kWeightSumPerInfluence * std::abs(plane.offset));
-  rounding_ = static_cast<float>(kPosedCoordinates * in_model) + kLeastRoundingMetres;
+  rounding_ = static_cast<float>(kPosedCoordinates * in_model + on_plane) + kLeastRoundingMetres;
 }
 
 }  // namespace sunder::tear

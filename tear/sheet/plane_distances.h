@@ -21,9 +21,12 @@ class PlaneDistances {
   /// Where a vertex may be.
   static constexpr std::uint8_t kInside = 1, kOutside = 2, kAcross = kInside | kOutside;
 
-  PlaneDistances(const PlaneSide& plane, std::span<const Affine3d> palette, ScratchMemory& memory);
+  /// @param on_plane  the distance from the plane within which a vertex may be on it.
+  PlaneDistances(const PlaneSide& plane, std::span<const Affine3d> palette, double on_plane,
+                 ScratchMemory& memory);
 
-  /// The side of a vertex without displacements, if rounding cannot change it; otherwise kAcross.
+  /// The side of a vertex without displacements that is not on the plane, if rounding cannot change
+  /// it; otherwise kAcross.
   [[nodiscard]] std::uint8_t side_of(const Vec3f& bind,
                                      std::span<const Influence> influences) const {
     Lanes sum = Lanes::Zero();
@@ -43,8 +46,9 @@ class PlaneDistances {
 
   ScratchVector<std::array<float, 4>> rows_;  ///< Per slot.
   float steepest_ = 0, farthest_ = 0;         ///< Bounds of the terms of a distance.
-  float slack_ = 0;     ///< Error per influence, because weights do not sum to one exactly.
-  float rounding_ = 0;  ///< Of the numbers in double; infinite if float cannot hold them.
+  float slack_ = 0;  ///< Error per influence, because weights do not sum to one exactly.
+  /// Of the numbers in double, and `on_plane`; infinite if float cannot hold them.
+  float rounding_ = 0;
 };
 
 }  // namespace sunder::tear

@@ -37,15 +37,17 @@ bool is_scanned(const SurfaceEditor& editor, const PosedPoints& posed) {
 }
 
 ScratchVector<Index> scan_faces(const PlaneSide& plane, const SurfaceEditor& editor,
-                                const PosedPoints& posed) {
+                                PosedPoints& posed) {
   constexpr std::uint8_t kAcross = PlaneDistances::kAcross;
+  posed.compare_with(plane);
   const Surface& surface = editor.surface();
   ScratchVector<Index> faces(&editor.scratch());
   faces.reserve(256);
   for (Index m = 0; m < editor.character().meshes.size(); ++m) {
     const Mesh& mesh = editor.character().meshes[m];
     ScratchVector<std::uint8_t> sides(mesh.vertex_count(), kAcross, &editor.scratch());
-    const PlaneDistances distances(plane, posed.pose().palette(mesh.skin), editor.scratch());
+    const PlaneDistances distances(plane, posed.pose().palette(mesh.skin),
+                                   posed.farthest_on_plane(editor), editor.scratch());
     find_sides(distances, m, editor, sides);
     for (Index t = 0; t < mesh.triangle_count(); ++t) {
       const auto& [a, b, c] = mesh.triangles[t];

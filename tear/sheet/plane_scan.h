@@ -9,10 +9,10 @@ namespace sunder::tear {
 /// other, than to search the patches that the plane may meet.
 [[nodiscard]] bool is_scanned(const SurfaceEditor& editor, const PosedPoints& posed);
 
-/// The live faces that may have points on both sides of a plane: all that do, and those that
-/// rounding cannot tell. Points are where their weights put them, none may be pinned.
+/// The live faces that may have points on both sides of a plane or on it: all that do, and those
+/// that rounding cannot tell. Points are where their weights put them, none may be pinned.
 /// O(vertices + triangles).
 [[nodiscard]] ScratchVector<Index> scan_faces(const PlaneSide& plane, const SurfaceEditor& editor,
-                                              const PosedPoints& posed);
+                                              PosedPoints& posed);
 
 }  // namespace sunder::tear

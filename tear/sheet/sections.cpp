@@ -17,7 +17,8 @@ namespace {
 struct Line {
   double weight = 0;  ///< Of the wanted bones, the mean of both ends.
   std::array<Vec3d, 2> ends = {Vec3d(Vec3d::Zero()), Vec3d(Vec3d::Zero())};
-  bool is_empty = true;  ///< The bounds exclude all of it.
+  bool is_empty = true;    ///< The bounds exclude all of it.
+  bool is_beside = false;  ///< The face has none: the plane meets it only in its edges.
 };
 
 /// Where the plane crosses the edges of a face. The edge is read in the direction of its lower
@@ -112,12 +113,16 @@ class Sections {
         line.weight += 0.5 * weight;
         if (end < 2) line.ends[end++] = place;
         if (!edges.is_within_bounds(place) || surface.twin[h] == kNone) continue;
-        const auto other = std::lower_bound(faces.begin(), faces.end(), surface.twin[h] / 3);
-        if (other != faces.end() && *other == surface.twin[h] / 3)
-          sets_.unite_with_lesser(i, static_cast<Index>(other - faces.begin()));
+        unite(i, surface.twin[h], faces);
       }
       line.is_empty = end < 2;
+      line.is_beside = line.is_empty;
       if (!line.is_empty) clip(sheet, line);
+      if (!line.is_beside) continue;
+      for (Index h = 3 * faces[i]; h < 3 * faces[i] + 3; ++h)
+        if (surface.twin[h] != kNone && posed.is_on_plane(editor, surface.corner_point[h]) &&
+            posed.is_on_plane(editor, surface.corner_point[Surface::next(h)]))
+          unite(i, surface.twin[h], faces);
     }
   }
 
@@ -176,9 +181,26 @@ class Sections {
       if (distance_to(lines_[i]) <= least + rounding) is_chosen[sets_.find(i)] = true;
   }
   [[nodiscard]] Index section_of(Index i) { return sets_.find(i); }
-  [[nodiscard]] bool is_empty(Index i) const { return lines_[i].is_empty; }
+  /// Per section: whether it has lines.
+  [[nodiscard]] ScratchVector<bool> have_lines() {
+    ScratchVector<bool> have_lines(lines_.size(), false, lines_.get_allocator());
+    for (Index i = 0; i < lines_.size(); ++i)
+      if (!lines_[i].is_empty) have_lines[sets_.find(i)] = true;
+    return have_lines;
+  }
+  /// Whether a face has no line, although it is met.
+  [[nodiscard]] bool is_excluded(Index i) const {
+    return lines_[i].is_empty && !lines_[i].is_beside;
+  }
 
  private:
+  /// Connects a face with the one that has a half-edge, if that is among `faces`.
+  void unite(Index i, Index half_edge, const ScratchVector<Index>& faces) {
+    const auto other = std::lower_bound(faces.begin(), faces.end(), half_edge / 3);
+    if (other != faces.end() && *other == half_edge / 3)
+      sets_.unite_with_lesser(i, static_cast<Index>(other - faces.begin()));
+  }
+
   ScratchVector<Line> lines_;  ///< Per face.
   DisjointSets sets_;
 };
@@ -197,8 +219,11 @@ ScratchVector<Index> faces_of_sections(const Sheet& sheet, const SectionLimits& 
   if (limits.first_hit) sections.choose_first(sheet.plane.normal, *limits.first_hit, is_chosen);
   ScratchVector<Index> staying(&editor.scratch());
   staying.reserve(faces.size());
+  const ScratchVector<bool> have_lines = sections.have_lines();
   for (Index i = 0; i < faces.size(); ++i)
-    if (!sections.is_empty(i) && is_chosen[sections.section_of(i)]) staying.push_back(faces[i]);
+    if (!sections.is_excluded(i) && is_chosen[sections.section_of(i)] &&
+        have_lines[sections.section_of(i)])
+      staying.push_back(faces[i]);
   return staying;
 }
 

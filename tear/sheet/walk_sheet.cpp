@@ -28,10 +28,26 @@ void SheetWalk::cross(std::span<const Index> faces) {
   half_edges_.reserve(2 * faces.size());
   left_over_.reserve(2 * faces.size());
   for (const Index face : faces) turn_edges_at(face);
-  for (const Index face : faces)
-    if (lone_corner(face) != kNone) walk_from(face);
+  for (const Index face : faces) {
+    if (has_edge_on_plane(face)) {
+      left_over_.push_back(face);
+      are_whole_ = false;
+    } else if (lone_corner(face) != kNone) {
+      walk_from(face);
+    }
+  }
   std::sort(left_over_.begin(), left_over_.end());
   left_over_.erase(std::unique(left_over_.begin(), left_over_.end()), left_over_.end());
+}
+
+bool SheetWalk::has_edge_on_plane(Index face) {
+  int count = 0;
+  for (Index k = 0; k < 3; ++k) {
+    const Index point = editor_.surface().corner_point[3 * face + k];
+    if (point >= first_new_point_) return false;
+    count += posed_.is_on_plane(editor_, point) ? 1 : 0;
+  }
+  return count >= 2;
 }
 
 /// New points lie on the plane and tell nothing, so a face that was split has none.
@@ -66,8 +82,8 @@ void SheetWalk::turn_edges_at(Index face) {
   }
 }
 
-/// Computed in the direction of the lower half-edge; an end that would be stored as the crossing is
-/// the crossing.
+/// Computed in the direction of the lower half-edge; an end that lies on the plane or would be
+/// stored as the crossing is the crossing.
 SheetWalk::Crossing SheetWalk::crossing(Index half_edge) {
   const Surface& surface = editor_.surface();
   const Index h = std::min(half_edge, surface.twin[half_edge]);  // kNone is the highest
@@ -80,7 +96,10 @@ SheetWalk::Crossing SheetWalk::crossing(Index half_edge) {
   const double slant =
       norm(way) / std::max(std::abs(at_from - at_to), std::numeric_limits<double>::min());
   const double snap = std::min(kFarthestSnapEdges, stored_part(h, editor_) * slant);
-  const At at = fraction <= snap ? At::begin : fraction >= 1 - snap ? At::end : At::inside;
+  const bool is_begin = posed_.is_on_plane(editor_, surface.corner_point[h]) || fraction <= snap;
+  const bool is_end =
+      posed_.is_on_plane(editor_, surface.corner_point[Surface::next(h)]) || fraction >= 1 - snap;
+  const At at = is_begin ? At::begin : is_end ? At::end : At::inside;
   if (h == half_edge) return {at, fraction, from + fraction * way};
   return {at == At::begin ? At::end
           : at == At::end ? At::begin

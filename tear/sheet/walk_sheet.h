@@ -42,6 +42,8 @@ class SheetWalk {
   [[nodiscard]] Index lone_corner(Index face);
   [[nodiscard]] bool is_inside(Index point) { return posed_.is_inside(editor_, point); }
   [[nodiscard]] Crossing crossing(Index half_edge);
+  /// Whether the plane passes at least two corners of a face.
+  [[nodiscard]] bool has_edge_on_plane(Index face);
   /// Flips edges out of the way of the plane, from a face that it crosses.
   void turn_edges_at(Index face);
   void walk_from(Index face);

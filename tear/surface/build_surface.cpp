@@ -408,6 +408,11 @@ Surface build_surface(const Character& character) {
                   [](Index side) { return side == 0; }))
     surface.source_side = {};
   surface.point_corner.shrink_to_fit();
+  for (const Mesh& mesh : character.meshes) {
+    float& largest = surface.largest_coordinate.emplace_back(0.0f);
+    for (const Vec3f& position : mesh.positions)
+      largest = std::max(largest, position.cwiseAbs().maxCoeff());
+  }
   surface.cracks = find_cracks(character, surface);
   return surface;
 }

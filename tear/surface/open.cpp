@@ -64,18 +64,26 @@ class CornersAtPoints {
 class FansAtPoint {
  public:
   FansAtPoint(const Surface& surface, ScratchMemory& scratch)
-      : surface_(surface), corners_(&scratch), begins_(&scratch), others_(&scratch) {
+      : surface_(surface),
+        corners_(&scratch),
+        begins_(&scratch),
+        groups_(&scratch),
+        others_(&scratch),
+        in_group_(&scratch) {
     corners_.reserve(kMany);
     begins_.reserve(kMany);
+    groups_.reserve(kMany);
     others_.reserve(kMany);
   }
 
   void clear() {
     corners_.clear();
     begins_.clear();
+    groups_.clear();
   }
   void add(Index corner) {
     if (std::find(corners_.begin(), corners_.end(), corner) != corners_.end()) return;
+    groups_.push_back(static_cast<Index>(begins_.size()));
     begins_.push_back(static_cast<Index>(corners_.size()));
     surface_.for_each_in_fan(corner, [&](Index c) { corners_.push_back(c); });
   }
@@ -85,11 +93,32 @@ class FansAtPoint {
     const std::size_t end = fan + 1 < begins_.size() ? begins_[fan + 1] : corners_.size();
     return std::span(corners_).subspan(begins_[fan], end - begins_[fan]);
   }
-  /// A corner of each other fan.
-  [[nodiscard]] std::span<const Index> others(std::size_t fan) {
+  /// Puts the fan that begins with a corner and the one that ends with another in one group.
+  void join(Index first, Index last) {
+    std::size_t a = count(), b = count();
+    for (std::size_t fan = 0; fan < count(); ++fan) {
+      if (corners(fan).front() == first) a = fan;
+      if (corners(fan).back() == last) b = fan;
+    }
+    if (a == count() || b == count()) return;
+    const Index kept = std::min(groups_[a], groups_[b]), other = std::max(groups_[a], groups_[b]);
+    std::replace(groups_.begin(), groups_.end(), other, kept);
+  }
+  /// Whether a fan is the first one of its group.
+  [[nodiscard]] bool leads_group(std::size_t fan) const { return groups_[fan] == fan; }
+  /// The corners of all fans of a group, by its first fan.
+  [[nodiscard]] std::span<const Index> group_corners(std::size_t first_fan) {
+    in_group_.clear();
+    for (std::size_t fan = 0; fan < count(); ++fan)
+      if (groups_[fan] == first_fan)
+        in_group_.insert(in_group_.end(), corners(fan).begin(), corners(fan).end());
+    return in_group_;
+  }
+  /// A corner of each fan outside a group.
+  [[nodiscard]] std::span<const Index> others(std::size_t first_fan) {
     others_.clear();
     for (std::size_t other = 0; other < begins_.size(); ++other)
-      if (other != fan) others_.push_back(corners_[begins_[other]]);
+      if (groups_[other] != first_fan) others_.push_back(corners_[begins_[other]]);
     return others_;
   }
 
@@ -97,7 +126,9 @@ class FansAtPoint {
   static constexpr std::size_t kMany = 16;
 
   const Surface& surface_;
-  ScratchVector<Index> corners_, begins_, others_;
+  ScratchVector<Index> corners_, begins_;
+  ScratchVector<Index> groups_;  ///< Per fan, the first fan of its group.
+  ScratchVector<Index> others_, in_group_;
 };
 
 /// The half-edges of an edge.
@@ -111,10 +142,25 @@ struct OpenedJoint {
   LipPair lips;
 };
 
-}  // namespace
+/// Groups the fans of a point that a cap will join.
+void join_fans(Index point, std::span<const SectionCorner> section_corners,
+               std::span<const Side> sides, FansAtPoint& fans) {
+  const auto first = std::lower_bound(
+      section_corners.begin(), section_corners.end(), point,
+      [](const SectionCorner& corner, Index wanted) { return corner.point < wanted; });
+  for (auto at = first; at != section_corners.end() && at->point == point; ++at) {
+    const Side &arriving = sides[at->arriving], &leaving = sides[at->leaving];
+    if (arriving.left == kNone || arriving.right == kNone || leaving.left == kNone ||
+        leaving.right == kNone)
+      continue;
+    fans.join(leaving.left, Surface::next(arriving.left));
+    fans.join(arriving.right, Surface::next(leaving.right));
+  }
+}
 
-void open_edges(std::span<const PointEdge> edges, std::span<const Index> half_edges,
-                SurfaceEditor& editor, std::vector<LipPair>& lips) {
+/// The half-edges on both sides of each edge.
+ScratchVector<Side> sides_of(std::span<const PointEdge> edges, std::span<const Index> half_edges,
+                             const SurfaceEditor& editor) {
   const Surface& surface = editor.surface();
   const auto find = [&](std::size_t i) {
     const auto& [from, to] = edges[i];
@@ -123,7 +169,6 @@ void open_edges(std::span<const PointEdge> edges, std::span<const Index> half_ed
                           surface.corner_point[Surface::next(known)] == to;
     return is_right ? known : surface.find_half_edge(from, to);
   };
-  // Found before anything is cut: afterwards neither side leads to the other.
   ScratchVector<Side> sides(&editor.scratch());
   sides.reserve(edges.size());
   for (std::size_t i = 0; i < edges.size(); ++i) {
@@ -131,6 +176,17 @@ void open_edges(std::span<const PointEdge> edges, std::span<const Index> half_ed
     const Index left = find(i);
     sides.push_back({left, left != kNone ? surface.twin[left] : surface.find_half_edge(to, from)});
   }
+  return sides;
+}
+
+}  // namespace
+
+void open_edges(std::span<const PointEdge> edges, std::span<const Index> half_edges,
+                std::span<const SectionCorner> section_corners, SurfaceEditor& editor,
+                std::vector<LipPair>& lips) {
+  const Surface& surface = editor.surface();
+  // Found before anything is cut: afterwards neither side leads to the other.
+  const ScratchVector<Side> sides = sides_of(edges, half_edges, editor);
   for (const Side& side : sides)
     if (side.left != kNone && side.right != kNone) cut_edge(side.left, editor);
 
@@ -161,14 +217,36 @@ void open_edges(std::span<const PointEdge> edges, std::span<const Index> half_ed
   corners.for_each_point([&](Index at, Index joint, std::span<const Index> of_point) {
     fans.clear();
     for (const Index corner : of_point) fans.add(corner);
+    join_fans(at, section_corners, sides, fans);
     for (std::size_t fan = 1; fan < fans.count(); ++fan)
-      opened.push_back({joint, {separate_fan(fans.corners(fan), fans.others(fan), editor), at}});
+      if (fans.leads_group(fan))
+        opened.push_back(
+            {joint, {separate_fan(fans.group_corners(fan), fans.others(fan), editor), at}});
   });
   sort_by_index(
       opened, [](const OpenedJoint& of) { return of.lips.left; }, editor.scratch());
   sort_by_index(
       opened, [](const OpenedJoint& of) { return of.joint; }, editor.scratch());
   for (const OpenedJoint& joint : opened) lips.push_back(joint.lips);
+}
+
+void separate_loose_fans(ScratchVector<Index>& corners, SurfaceEditor& editor,
+                         std::vector<LipPair>& lips) {
+  const Surface& surface = editor.surface();
+  const auto point_of = [&](Index corner) { return surface.corner_point[corner]; };
+  std::sort(corners.begin(), corners.end(), [&](Index a, Index b) {
+    return point_of(a) != point_of(b) ? point_of(a) < point_of(b) : a < b;
+  });
+  FansAtPoint fans(surface, editor.scratch());
+  for (auto begin = corners.begin(); begin != corners.end();) {
+    const Index point = point_of(*begin);
+    const auto end =
+        std::find_if(begin, corners.end(), [&](Index corner) { return point_of(corner) != point; });
+    fans.clear();
+    for (; begin != end; ++begin) fans.add(*begin);
+    for (std::size_t fan = 1; fan < fans.count(); ++fan)
+      lips.push_back({separate_fan(fans.corners(fan), fans.others(fan), editor), point});
+  }
 }
 
 }  // namespace sunder::tear

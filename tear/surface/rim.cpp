@@ -9,7 +9,7 @@ namespace {
 class Leaving {
  public:
   Leaving(std::span<const Index> half_edges, const Surface& surface, ScratchMemory& scratch)
-      : entries_(&scratch), ends_(&scratch) {
+      : surface_(surface), entries_(&scratch), ends_(&scratch) {
     entries_.reserve(half_edges.size());
     ends_.reserve(half_edges.size());
     for (const Index h : half_edges) {
@@ -30,6 +30,14 @@ class Leaving {
     entry->is_taken = true;
     return entry->half_edge;
   }
+  void take_half_edge(Index half_edge) {
+    const Index point = surface_.corner_point[half_edge];
+    const auto found = std::find_if(
+        std::lower_bound(entries_.begin(), entries_.end(), point,
+                         [](const Entry& entry, Index p) { return entry.point < p; }),
+        entries_.end(), [&](const Entry& entry) { return entry.half_edge == half_edge; });
+    if (found != entries_.end()) found->is_taken = true;
+  }
   [[nodiscard]] bool is_entered(Index point) const {
     return std::binary_search(ends_.begin(), ends_.end(), point);
   }
@@ -39,6 +47,7 @@ class Leaving {
     Index point, half_edge;
     bool is_taken;
   };
+  const Surface& surface_;
   ScratchVector<Entry> entries_;
   ScratchVector<Index> ends_;
 };
@@ -101,6 +110,54 @@ ScratchVector<Rim> chain_rims(std::span<const Index> half_edges, const Surface& 
   for (const Index h : half_edges)  // open chains first, then closed ones
     if (!leaving.is_entered(surface.corner_point[h])) follow(surface.corner_point[h]);
   for (const Index h : half_edges) follow(surface.corner_point[h]);
+  return rims;
+}
+
+ScratchVector<Rim> chain_rims(std::span<const Index> half_edges,
+                              std::span<const std::array<Index, 2>> following,
+                              const Surface& surface, ScratchMemory& scratch) {
+  if (following.empty()) return chain_rims(half_edges, surface, scratch);
+  Leaving leaving(half_edges, surface, scratch);
+  for (const auto& [half_edge, next] : following) leaving.take_half_edge(next);
+  // By half-edge, ascending: the one that follows it, if any.
+  ScratchVector<std::array<Index, 2>> links(following.begin(), following.end(), &scratch);
+  links.reserve(half_edges.size());
+  const auto is_linked = [&](Index h) {
+    const auto at = std::lower_bound(following.begin(), following.end(), std::array{h, Index{0}});
+    return at != following.end() && (*at)[0] == h;
+  };
+  for (const Index h : half_edges)
+    if (!is_linked(h))
+      if (const Index next = leaving.take(surface.corner_point[Surface::next(h)]); next != kNone)
+        links.push_back({h, next});
+  std::sort(links.begin(), links.end());
+  ScratchVector<Index> followers(&scratch);
+  for (const auto& link : links) followers.push_back(link[1]);
+  std::sort(followers.begin(), followers.end());
+
+  ScratchVector<Rim> rims(&scratch);
+  ScratchVector<bool> is_used(links.size(), false, &scratch);
+  const auto link_of = [&](Index h) {
+    return static_cast<std::size_t>(
+        std::lower_bound(links.begin(), links.end(), std::array{h, Index{0}}) - links.begin());
+  };
+  const auto follow = [&](Index first) {
+    Rim& rim = rims.emplace_back(scratch);
+    for (Index h = first;;) {
+      rim.half_edges.push_back(h);
+      const std::size_t link = link_of(h);
+      if (link == links.size() || links[link][0] != h) return;
+      is_used[link] = true;
+      h = links[link][1];
+      if (h != first) continue;
+      rim.is_closed = true;
+      return;
+    }
+  };
+  for (const Index h : half_edges)  // open chains first, then closed ones
+    if (!std::binary_search(followers.begin(), followers.end(), h)) follow(h);
+  for (std::size_t i = 0; i < links.size(); ++i)
+    if (!is_used[i]) follow(links[i][0]);
   return rims;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <span>
 
 #include "tear/internal/surface.h"
@@ -19,6 +20,12 @@ struct Rim {
 /// followed by the given one that leaves the point where it ends; there is at most one, because a
 /// point has one fan.
 [[nodiscard]] ScratchVector<Rim> chain_rims(std::span<const Index> half_edges,
+                                            const Surface& surface, ScratchMemory& scratch);
+
+/// The same where some points have several fans.
+/// @param following  half-edges that end at such points, ascending, and those that follow them.
+[[nodiscard]] ScratchVector<Rim> chain_rims(std::span<const Index> half_edges,
+                                            std::span<const std::array<Index, 2>> following,
                                             const Surface& surface, ScratchMemory& scratch);
 
 }  // namespace sunder::tear

@@ -64,7 +64,8 @@ TEST(FillingMemory, warm_caps_allocate_nothing) {
     const PlaneSide plane = plane_across(random);
     const auto count = tube.allocations_of(plane, [&](const auto& opening, const Workpiece& work) {
       TearReport report;
-      add_caps(opening, plane.normal, kNone, work, report);
+      std::vector<LipPair> lips;
+      add_caps(opening, plane.normal, kNone, work, report, lips);
       EXPECT_EQ(report.caps, 2u);
     });
     EXPECT_EQ(count, 0u);

@@ -38,7 +38,7 @@ Counts compare(const Character& character, const ModelPose& pose, test::Random& 
     const PlaneSide plane = {normal,
                              dot(normal, posed.position(mesh, random.index(mesh.vertex_count())))};
     memory.reset();
-    const PlaneDistances distances(plane, posed.palette(mesh.skin), memory);
+    const PlaneDistances distances(plane, posed.palette(mesh.skin), 0, memory);
     for (Index v = 0; v < mesh.vertex_count(); ++v) {
       const std::uint8_t side = distances.side_of(mesh.positions[v], mesh.weights.of(v));
       if (side == PlaneDistances::kAcross) continue;

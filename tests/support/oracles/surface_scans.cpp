@@ -185,13 +185,17 @@ std::vector<Index> scan_for_faces_across(const tear::Sheet& sheet,
                                          const tear::SurfaceEditor& editor,
                                          tear::PosedPoints& posed) {
   std::vector<Index> faces;
+  posed.compare_with(sheet.plane);
   for_each_face(editor, posed, [&](Index face, const Corners& corners) {
     const auto count_in = [&](const PlaneSide& side) {
       return std::count_if(corners.begin(), corners.end(),
                            [&](const Vec3d& corner) { return side.contains(corner); });
     };
     const auto in_front = count_in(sheet.plane);
-    if (in_front > 0 && in_front < 3 &&
+    std::size_t on_plane = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      on_plane += posed.is_on_plane(editor, editor.surface().corner_point[3 * face + k]) ? 1 : 0;
+    if (((in_front > 0 && in_front < 3) || on_plane >= 2) &&
         std::all_of(sheet.bounds.begin(), sheet.bounds.end(),
                     [&](const tear::Sheet::Bound& bound) { return count_in(bound.side) > 0; }))
       faces.push_back(face);
