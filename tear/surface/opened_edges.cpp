@@ -15,6 +15,8 @@ void OpenedEdges::begin(bool is_wanted) {
   if (count_ > 0) std::fill(slots_.begin(), slots_.end(), kNone);
   count_ = 0;
   changes_.clear();
+  borders_.clear();
+  is_rolled_back_ = false;
 }
 
 std::vector<Index> OpenedEdges::tracked() const {
@@ -26,11 +28,14 @@ std::vector<Index> OpenedEdges::tracked() const {
 }
 
 const std::vector<Index>& OpenedEdges::borders() {
-  borders_.clear();
-  for (const Index h : slots_)
-    if (h < surface_.twin.size() && surface_.twin[h] == kNone && surface_.corner_point[h] != kNone)
-      borders_.push_back(h);
+  if (is_rolled_back_) borders_ = slots_;
+  is_rolled_back_ = false;
+  std::erase_if(borders_, [this](Index h) {
+    return h == kNone || !contains(h) || surface_.twin[h] != kNone ||
+           surface_.corner_point[h] == kNone;
+  });
   std::sort(borders_.begin(), borders_.end());
+  borders_.erase(std::unique(borders_.begin(), borders_.end()), borders_.end());
   return borders_;
 }
 
@@ -48,6 +53,7 @@ std::size_t OpenedEdges::slot_of(Index half_edge) const {
 void OpenedEdges::insert(Index half_edge) {
   // Memory first, so that nothing fails after the set has changed.
   if (2 * (count_ + 1) > slots_.size()) grow();
+  borders_.push_back(half_edge);
   const std::size_t slot = slot_of(half_edge);
   if (slots_[slot] == half_edge) return;
   changes_.push_back({half_edge, true});
@@ -84,6 +90,7 @@ void OpenedEdges::free_slot(std::size_t slot) noexcept {
 }
 
 void OpenedEdges::roll_back(Index change_count) noexcept {
+  is_rolled_back_ = true;
   for (; changes_.size() > change_count; changes_.pop_back()) {
     const auto [half_edge, is_insertion] = changes_.back();
     const std::size_t slot = slot_of(half_edge);

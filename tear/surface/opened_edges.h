@@ -14,7 +14,9 @@ class OpenedEdges {
 
   /// Clears the set and the log. @param is_wanted  track half-edges from now on.
   void begin(bool is_wanted);
-  /// The tracked half-edges that are still borders, ascending. Valid until the next call.
+  /// The tracked half-edges that are still borders, ascending. Valid until the next call. Looks at
+  /// those that the last call returned and at those tracked since, so that a stroke that asks after
+  /// each of its blades does not look at all of its lips again; after roll_back() at all.
   [[nodiscard]] const std::vector<Index>& borders();
   /// Those of faces that are left, ascending.
   [[nodiscard]] std::vector<Index> tracked() const;
@@ -61,7 +63,9 @@ class OpenedEdges {
   std::vector<Index> slots_;
   std::size_t count_ = 0;
   std::vector<Change> changes_;
+  /// Holds at least all borders, in any order and with repetitions, unless `is_rolled_back_`.
   std::vector<Index> borders_;
+  bool is_rolled_back_ = false;
   bool is_wanted_ = false;
 };
 
