@@ -89,6 +89,14 @@ static_assert(kLeastOriginAreas < kLeastFaceAreas, "a face is a part of its orig
 /// fro.
 inline constexpr double kBetterShapeFactor = 1.0001;
 static_assert(kBetterShapeFactor > 1);
+/// A corner of two triangles of a cap lies in the plane of the others if the sine of its elevation
+/// is less.
+inline constexpr double kFlatCapSines = 1e-3;
+/// An edge of a cap that is turned out of the way of a cut may leave faces this much thinner: they
+/// cost less than those that the crossing of the edge would leave.
+inline constexpr double kWorseCapShapeFactor = 0.2;
+/// A face is a needle if its doubled area is a smaller part of its squared longest side.
+inline constexpr double kNeedleShape = 1e-4;
 
 // ---- Sheets and cells.
 

@@ -198,7 +198,6 @@ SheetOpening open_sheet(const Sheet& sheet, std::span<const Index> faces, bool k
   std::span<const Index> half_edges;
   SheetWalk walk(sheet.plane, editor, posed);
   if (sheet.bounds.empty()) {
-    editor.stage.begin();
     walk.cross(faces);
     opening.faces_crossed = walk.faces_crossed();
   }

@@ -5,9 +5,11 @@
 #include <limits>
 
 #include "core/internal/ordered.h"
+#include "tear/geometry/face_shape.h"
 #include "tear/geometry/tolerances.h"
 #include "tear/internal/surface.h"
 #include "tear/path/snapping.h"
+#include "tear/surface/flip_cap_edge.h"
 #include "tear/surface/flip_edge.h"
 
 namespace sunder::tear {
@@ -17,6 +19,7 @@ SheetWalk::SheetWalk(const PlaneSide& plane, SurfaceEditor& editor, PosedPoints&
       editor_(editor),
       posed_(posed),
       first_new_point_(editor.surface().point_count()),
+      faces_(&editor.scratch()),
       edges_(&editor.scratch()),
       half_edges_(&editor.scratch()),
       left_over_(&editor.scratch()) {
@@ -27,8 +30,11 @@ void SheetWalk::cross(std::span<const Index> faces) {
   edges_.reserve(2 * faces.size());
   half_edges_.reserve(2 * faces.size());
   left_over_.reserve(2 * faces.size());
-  for (const Index face : faces) turn_edges_at(face);
-  for (const Index face : faces) {
+  faces_.assign(faces.begin(), faces.end());
+  for (const Index face : faces) turn_needle(face);
+  for (std::size_t i = 0; i < faces_.size(); ++i) turn_edges_at(faces_[i]);
+  editor_.stage.begin();
+  for (const Index face : faces_) {
     if (has_edge_on_plane(face)) {
       left_over_.push_back(face);
       are_whole_ = false;
@@ -50,12 +56,13 @@ bool SheetWalk::has_edge_on_plane(Index face) {
   return count >= 2;
 }
 
-/// New points lie on the plane and tell nothing, so a face that was split has none.
+/// New points lie on the plane and tell nothing, so a face that was split has none. Nor has a
+/// retired one.
 Index SheetWalk::lone_corner(Index face) {
   std::array<bool, 3> inside;
   for (Index k = 0; k < 3; ++k) {
     const Index point = editor_.surface().corner_point[3 * face + k];
-    if (point >= first_new_point_) return kNone;
+    if (point >= first_new_point_) return kNone;  // kNone is the highest
     inside[k] = is_inside(point);
   }
   if (inside[0] == inside[1] && inside[1] == inside[2]) return kNone;
@@ -64,15 +71,18 @@ Index SheetWalk::lone_corner(Index face) {
   return kNone;
 }
 
-/// Edges between parts of one origin only belong to the triangulation that earlier operations left.
-/// Where the plane crosses one on its way round a point, the edge is flipped, so that it need not
-/// be split.
+/// Edges between parts of one origin, and within a flat cap, only belong to the triangulation that
+/// earlier operations left. Where the plane crosses one on its way round a point, the edge is
+/// flipped, so that it need not be split.
 void SheetWalk::turn_edges_at(Index face) {
   const auto turn = [&](Index half_edge, bool is_lone_inside) {
-    if (!editor_.origins.is_inner_edge(half_edge)) return false;
     const Surface& surface = editor_.surface();
-    const Index beyond = surface.corner_point[Surface::previous(surface.twin[half_edge])];
-    return is_inside(beyond) != is_lone_inside && flip_edge(half_edge, editor_);
+    const Index twin = surface.twin[half_edge];
+    // Between triangles of the source nothing can be turned.
+    if (twin == kNone || std::max(half_edge, twin) / 3 < surface.first_triangle.back())
+      return false;
+    const Index beyond = surface.corner_point[Surface::previous(twin)];
+    return is_inside(beyond) != is_lone_inside && turn_edge(half_edge);
   };
   for (bool has_turned = true; has_turned;) {
     const Index lone = lone_corner(face);
@@ -80,6 +90,37 @@ void SheetWalk::turn_edges_at(Index face) {
     const bool is_lone_inside = is_inside(editor_.surface().corner_point[lone]);
     has_turned = turn(lone, is_lone_inside) || turn(Surface::previous(lone), is_lone_inside);
   }
+}
+
+bool SheetWalk::turn_edge(Index half_edge) {
+  return editor_.origins.is_inner_edge(half_edge) ? flip_edge(half_edge, editor_)
+                                                  : turn_cap_edge(half_edge, kWorseCapShapeFactor);
+}
+
+bool SheetWalk::turn_cap_edge(Index half_edge, double least_shape_factor) {
+  const auto fresh = flip_cap_edge(half_edge, least_shape_factor, editor_);
+  if (fresh) faces_.insert(faces_.end(), fresh->begin(), fresh->end());
+  return fresh.has_value();
+}
+
+/// Three points of a rim on one line leave a cap a face that nothing can split.
+void SheetWalk::turn_needle(Index face) {
+  const Surface& surface = editor_.surface();
+  if (face < surface.first_triangle.back() || surface.has_repeated_point(face)) return;
+  const Index mesh = surface.triangle(face).mesh;
+  std::array<Place, 3> at;
+  for (Index k = 0; k < 3; ++k)
+    at[k] = place_of(editor_.births.position(mesh, editor_.vertex_at(3 * face + k)));
+  if (!(shape_squared(at[0], at[1], at[2]) < kNeedleShape * kNeedleShape)) return;
+  Index longest = 0;
+  double squared_length = -1;
+  for (Index k = 0; k < 3; ++k) {
+    const Place along = way(at[k], at[(k + 1) % 3]);
+    if (!(dot(along, along) > squared_length)) continue;
+    squared_length = dot(along, along);
+    longest = k;
+  }
+  turn_cap_edge(3 * face + longest, kBetterShapeFactor);
 }
 
 /// Computed in the direction of the lower half-edge; an end that lies on the plane or would be

@@ -16,6 +16,7 @@ class SheetWalk {
  public:
   SheetWalk(const PlaneSide& plane, SurfaceEditor& editor, PosedPoints& posed);
 
+  /// Begins a stage when the edges in the way of the plane are turned.
   /// @param faces  of faces_across().
   void cross(std::span<const Index> faces);
 
@@ -44,8 +45,13 @@ class SheetWalk {
   [[nodiscard]] Crossing crossing(Index half_edge);
   /// Whether the plane passes at least two corners of a face.
   [[nodiscard]] bool has_edge_on_plane(Index face);
-  /// Flips edges out of the way of the plane, from a face that it crosses.
+  /// Flips edges out of the way of the plane, from a face that it crosses. Faces that this makes
+  /// are appended to `faces_`.
   void turn_edges_at(Index face);
+  bool turn_edge(Index half_edge);
+  bool turn_cap_edge(Index half_edge, double least_shape_factor);
+  /// Flips the longest edge of a face of a cap that is nearly a line.
+  void turn_needle(Index face);
   void walk_from(Index face);
   /// Crosses faces from the splitter's newest point on. @return whether it came back to `start`.
   bool go(LineSplitter& splitter, Index start);
@@ -58,7 +64,8 @@ class SheetWalk {
   SurfaceEditor& editor_;
   PosedPoints& posed_;
   Index first_new_point_;
-  Index newest_ = kNone;  ///< Point.
+  Index newest_ = kNone;        ///< Point.
+  ScratchVector<Index> faces_;  ///< To be crossed; some of them may be retired.
   ScratchVector<PointEdge> edges_;
   ScratchVector<Index> half_edges_, left_over_;
   Index runs_ = 0, faces_crossed_ = 0;

@@ -160,10 +160,10 @@ void expect_few_faces(std::uint64_t seed, std::uint32_t most) {
 }
 
 TEST(Caps, that_are_cut_again_do_not_multiply) {
-  expect_few_faces(3, 50000);
+  expect_few_faces(3, 43000);
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     SCOPED_TRACE(seed);
-    expect_few_faces(seed, 70000);
+    expect_few_faces(seed, 60000);
   }
 }
 
