@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <map>
 #include <memory_resource>
-#include <numeric>
 
 #include "core/internal/ordered.h"
 #include "tear/filling/cap_shapes.h"
 #include "tear/filling/filling.h"
+#include "tear/filling/part_points.h"
 #include "tear/filling/rim_values.h"
 #include "tear/geometry/tolerances.h"
 #include "tear/internal/surface.h"
@@ -44,42 +44,6 @@ double doubled_area(const FlatLoop& loop) {
 }
 
 using FlatTriangle = std::array<Index, 3>;
-
-bool is_before(const Vec2d& a, const Vec2d& b) {
-  return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
-}
-
-/// Where a loop passes a place several times, moves each of its points there into the section, on
-/// the left of the loop, by a tiny part of the edges there: the triangulation takes no loops that
-/// touch themselves.
-void part_touching_points(FlatLoop& loop, ScratchMemory& scratch) {
-  constexpr double kPart = 1e-7;
-  ScratchVector<std::size_t> order(loop.size(), 0, &scratch);
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return loop[a] != loop[b] ? is_before(loop[a], loop[b]) : a < b;
-  });
-  const auto is_same = [&](std::size_t i, std::size_t k) {
-    return loop[order[i]] == loop[order[k]];
-  };
-  ScratchVector<std::pair<std::size_t, Vec2d>> moves(&scratch);
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    if (!((i > 0 && is_same(i - 1, i)) || (i + 1 < order.size() && is_same(i, i + 1)))) continue;
-    const std::size_t at = order[i];
-    const Vec2d back = loop[(at + loop.size() - 1) % loop.size()] - loop[at],
-                ahead = loop[(at + 1) % loop.size()] - loop[at];
-    const double to_back = norm(back), to_ahead = norm(ahead);
-    if (!(to_back > 0) || !(to_ahead > 0)) continue;
-    Vec2d between = back / to_back + ahead / to_ahead;
-    const double turn = ahead.x() * back.y() - ahead.y() * back.x();
-    if (norm(between) < kPart)
-      between = Vec2d(-ahead.y(), ahead.x()) / to_ahead;  // straight on
-    else if (turn < 0)
-      between = -between;
-    moves.push_back({at, kPart * std::min(to_back, to_ahead) / norm(between) * between});
-  }
-  for (const auto& [at, move] : moves) loop[at] += move;
-}
 
 /// A region of the section, with the half-edges around it.
 struct CapRim {
@@ -142,17 +106,18 @@ class Caps {
         loop.push_back(frame_.project(position(point_before(h))));
       part_touching_points(loop, scratch());
       // The same start on both sides.
-      const auto first = std::min_element(loop.begin(), loop.end(), is_before) - loop.begin();
+      const auto first = std::min_element(loop.begin(), loop.end(), is_left_of) - loop.begin();
       std::rotate(loop.begin(), loop.begin() + first, loop.end());
       std::rotate(rim->half_edges.begin(), rim->half_edges.begin() + first, rim->half_edges.end());
     }
     std::size_t left_over = rims.size();
     for (FlatRegion& region : find_regions(loops, scratch())) {
       std::sort(region.holes.begin(), region.holes.end(), [&](Index a, Index b) {
-        return loops[a][0] != loops[b][0] ? is_before(loops[a][0], loops[b][0]) : a < b;
+        return loops[a][0] != loops[b][0] ? is_left_of(loops[a][0], loops[b][0]) : a < b;
       });
       const EditLog::Mark before = work_.editor.mark();
-      CapShape* const shape = shapes_.of(loops, region);
+      CapShape* shape = shapes_.of(loops, region);
+      if (shape == nullptr && part_close_points(region, loops)) shape = shapes_.of(loops, region);
       if (shape != nullptr && close(rims, loops, region, *shape, before)) {
         ++report_.caps;
         left_over -= 1 + region.holes.size();
@@ -161,6 +126,18 @@ class Caps {
       }
     }
     report_.open_sections += static_cast<Index>(left_over);
+  }
+
+  /// @return whether there are any.
+  bool part_close_points(const FlatRegion& region, std::span<FlatLoop> loops) const {
+    double largest = frame_.origin.cwiseAbs().maxCoeff();
+    for (const Vec2d& place : loops[region.outline])
+      largest = std::max(largest, place.cwiseAbs().maxCoeff());
+    const double close = kStoredCoordinates * largest;
+    bool has_moved = tear::part_close_points(loops[region.outline], close);
+    for (const Index hole : region.holes)
+      if (tear::part_close_points(loops[hole], close)) has_moved = true;
+    return has_moved;
   }
 
   /// The point at which the cap's edge along a border half-edge begins, which is where the
