@@ -1,0 +1,189 @@
+#include "support/oracles/membrane.h"
+
+#include <sunder/skinning/pose.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <numeric>
+
+#include <Eigen/SparseCholesky>
+
+#include "support/models/rigs.h"
+#include "tear/internal/surface.h"
+
+namespace sunder::test {
+namespace {
+
+template <class T>
+T checked(Result<T> result) {
+  if (!result) {
+    std::fprintf(stderr, "%s\n", std::string(result.error().text()).c_str());
+    std::abort();
+  }
+  return std::move(*result);
+}
+
+void check(const Status& status) {
+  if (status) return;
+  std::fprintf(stderr, "%s\n", std::string(status.text()).c_str());
+  std::abort();
+}
+
+GapProfile gap_between(const SlitSheet& sheet, const std::vector<Vec3d>& displacements) {
+  const std::span<const Vec3f> at = sheet.set->positions();
+  std::vector<std::size_t> order(sheet.lips.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto x_of = [&](std::size_t i) { return double{at[sheet.lips[i].left].x()}; };
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return x_of(a) < x_of(b); });
+  Eigen::AlignedBox3f box;
+  for (const Vec3f& place : at) box.extend(Eigen::Vector3f(place));
+  GapProfile gap;
+  for (const std::size_t i : order) {
+    gap.x.push_back(x_of(i) - double{box.center().x()});
+    gap.width.push_back(
+        (displacements[sheet.lips[i].left] - displacements[sheet.lips[i].right]).norm());
+  }
+  return gap;
+}
+
+/// The width at a place, linear between those that are known.
+double width_at(const GapProfile& gap, double x) {
+  const auto after = std::lower_bound(gap.x.begin(), gap.x.end(), x);
+  if (after == gap.x.begin()) return gap.width.front();
+  if (after == gap.x.end()) return gap.width.back();
+  const auto i = static_cast<std::size_t>(after - gap.x.begin());
+  const double t = (x - gap.x[i - 1]) / (gap.x[i] - gap.x[i - 1]);
+  return gap.width[i - 1] + t * (gap.width[i] - gap.width[i - 1]);
+}
+
+}  // namespace
+
+std::vector<Vec3d> solve_membrane(const TornModel& model, std::span<const Vec3f> positions,
+                                  const SoftMaterial& material, std::span<const Vec3d> forces) {
+  const tear::Surface& surface = model.surface();
+  const auto count = static_cast<Eigen::Index>(positions.size());
+  std::vector<Eigen::Triplet<double>> entries;
+  std::vector<bool> has_face(positions.size(), false);
+  for (std::uint32_t t = 0; t < surface.triangle_count(); ++t) {
+    const tear::TriangleRef of = surface.triangle(t);
+    if (surface.has_repeated_point(t) ||
+        of.source_triangle >= model.source().meshes[of.mesh].triangles.size())
+      continue;
+    const std::uint32_t* points = &surface.corner_point[std::size_t{3} * t];
+    std::array<Eigen::Vector3d, 3> at;
+    for (std::size_t k = 0; k < 3; ++k) at[k] = positions[points[k]].cast<double>();
+    const double twice = (at[1] - at[0]).cross(at[2] - at[0]).norm();
+    if (!(twice > 1e-12)) continue;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto row = static_cast<Eigen::Index>(points[i]);
+      has_face[points[i]] = true;
+      entries.emplace_back(row, row,
+                           material.areal_density * material.return_stiffness * twice / 6);
+      for (std::size_t j = 0; j < 3; ++j) {
+        // The gradient of a corner's function is its opposite edge, turned, over twice the area.
+        const Eigen::Vector3d mine = at[(i + 2) % 3] - at[(i + 1) % 3],
+                              other = at[(j + 2) % 3] - at[(j + 1) % 3];
+        entries.emplace_back(row, static_cast<Eigen::Index>(points[j]),
+                             material.membrane_stiffness * mine.dot(other) / (2 * twice));
+      }
+    }
+  }
+  for (std::uint32_t p = 0; p < positions.size(); ++p)
+    if (!has_face[p]) entries.emplace_back(p, p, 1.0);
+  Eigen::SparseMatrix<double> matrix(count, count);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(matrix);
+  if (factors.info() != Eigen::Success) std::abort();
+  Eigen::MatrixXd right = Eigen::MatrixXd::Zero(count, 3);
+  for (std::uint32_t p = 0; p < positions.size(); ++p)
+    if (has_face[p]) right.row(p) = forces[p].transpose();
+  const Eigen::MatrixXd found = factors.solve(right);
+  std::vector<Vec3d> displacements;
+  for (Eigen::Index p = 0; p < count; ++p) displacements.emplace_back(found.row(p).transpose());
+  return displacements;
+}
+
+std::vector<Vec3d> lip_forces(const ParticleSet& set, double newtons_per_metre) {
+  std::vector<Vec3d> forces(set.point_count(), Vec3d::Zero());
+  for (const LipEdge& lip : set.lips())
+    for (const std::uint32_t point : lip.points)
+      forces[point] += 0.5 * newtons_per_metre * lip.inward.cast<double>();
+  return forces;
+}
+
+SlitSheet::SlitSheet(std::uint32_t cells, double half_length, double range,
+                     const SoftMaterial& material, double size) {
+  character = std::make_shared<const Character>(make_sheet(cells, static_cast<float>(size)));
+  model = std::make_unique<TornModel>(checked(TornModel::create(character)));
+  pose = checked(bind_pose(*character));
+  set = std::make_unique<ParticleSet>(
+      checked(ParticleSet::create(*model, pose, {size * range, false, 0})));
+  body = std::make_unique<SoftBody>(checked(SoftBody::create(*set, pose, {&material, 1})));
+  const auto blade = [&](double x) {
+    const double y = 0.503;
+    return Blade{{size * x, size * y, size * 0.5}, {size * x, size * y, -0.5 * size}};
+  };
+  const Stroke stroke = {blade(0.5 - half_length), blade(0.5 + half_length)};
+  ChangeRecord change;
+  (void)checked(model->tear(pose, stroke, {}, &change));
+  lips = change.lips;
+  check(set->follow(*model, {&change, 1}));
+  while (set->settle(*model, 100000)) continue;
+}
+
+void SlitSheet::open(double newtons_per_metre) {
+  check(body->set_tension({newtons_per_metre, {}}));
+  check(body->step(*model, pose, 1.0 / 60));
+  // Long steps end in the balance, which is all that counts here.
+  for (int i = 0; i < 400 && body->awake_count() > 0; ++i) check(body->step(*model, pose, 0.1));
+}
+
+double GapProfile::widest() const { return *std::max_element(width.begin(), width.end()); }
+
+GapProfile gap_of(const SlitSheet& sheet) {
+  std::vector<Vec3d> displacements;
+  for (std::uint32_t p = 0; p < sheet.set->point_count(); ++p)
+    displacements.push_back(sheet.body->point_displacement(p));
+  return gap_between(sheet, displacements);
+}
+
+GapProfile reference_gap(const SlitSheet& sheet, double newtons_per_metre) {
+  return gap_between(
+      sheet, solve_membrane(*sheet.model, sheet.set->positions(), sheet.body->materials()[0],
+                            lip_forces(*sheet.set, newtons_per_metre)));
+}
+
+double rms_difference(const GapProfile& found, const GapProfile& wanted) {
+  double sum = 0;
+  for (std::size_t i = 0; i < wanted.x.size(); ++i)
+    sum += std::pow(width_at(found, wanted.x[i]) - wanted.width[i], 2);
+  return std::sqrt(sum / static_cast<double>(wanted.x.size())) / wanted.widest();
+}
+
+double asymmetry(const GapProfile& gap) {
+  double most = 0;
+  for (std::size_t i = 0; i < gap.x.size(); ++i)
+    most = std::max(most, std::abs(gap.width[i] - width_at(gap, -gap.x[i])));
+  return most / gap.widest();
+}
+
+double difference_from_ellipse(const GapProfile& gap, double half_length) {
+  const auto ellipse = [&](double x) {
+    return std::sqrt(std::max(0.0, 1 - x * x / (half_length * half_length)));
+  };
+  double product = 0, square = 0;
+  for (std::size_t i = 0; i < gap.x.size(); ++i) {
+    product += gap.width[i] * ellipse(gap.x[i]);
+    square += ellipse(gap.x[i]) * ellipse(gap.x[i]);
+  }
+  const double height = product / square;
+  double sum = 0;
+  for (std::size_t i = 0; i < gap.x.size(); ++i)
+    sum += std::pow(gap.width[i] - height * ellipse(gap.x[i]), 2);
+  return std::sqrt(sum / static_cast<double>(gap.x.size())) / height;
+}
+
+}  // namespace sunder::test

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <sunder/particles/soft_body.h>
+
+#include <memory>
+#include <vector>
+
+namespace sunder::test {
+
+/// The displacement of every point of a torn surface in balance: a membrane on an elastic
+/// foundation, by finite elements with one unknown per point, linear on each face (cotangent
+/// weights), and a sparse Cholesky factorisation. Walls and caps are no part of it. Independent of
+/// any particles.
+///
+/// @param positions  per point.
+/// @param material   its membrane_stiffness, areal_density and return_stiffness count.
+/// @param forces     per point, newtons.
+/// @return metres; 0 at points without a face.
+std::vector<Vec3d> solve_membrane(const TornModel& model, std::span<const Vec3f> positions,
+                                  const SoftMaterial& material, std::span<const Vec3d> forces);
+
+/// The forces of a tension at lips: half of each edge's at each of its ends.
+std::vector<Vec3d> lip_forces(const ParticleSet& set, double newtons_per_metre);
+
+/// A flat sheet of one metre in the plane z = 0, with a slit along x in its middle.
+struct SlitSheet {
+  std::shared_ptr<const Character> character;
+  std::unique_ptr<TornModel> model;
+  ModelPose pose;
+  std::unique_ptr<ParticleSet> set;
+  std::unique_ptr<SoftBody> body;
+  std::vector<LipPair> lips;
+
+  /// @param cells  along each edge of the sheet.
+  /// @param half_length  of the slit, metres.
+  /// @param range  of the particles, metres.
+  /// @param size  by which all lengths are multiplied.
+  SlitSheet(std::uint32_t cells, double half_length, double range, const SoftMaterial& material,
+            double size = 1);
+
+  /// Pulls the lips apart until nothing moves any more.
+  void open(double newtons_per_metre);
+};
+
+/// The distance of the lips along a slit, in the order of x.
+struct GapProfile {
+  std::vector<double> x, width;  ///< Metres; x from the middle of the slit.
+
+  [[nodiscard]] double widest() const;
+};
+
+/// The gap by the particles, and that of the reference under the same tension.
+GapProfile gap_of(const SlitSheet& sheet);
+GapProfile reference_gap(const SlitSheet& sheet, double newtons_per_metre);
+
+/// Root of the mean squared difference along the slit, relative to the widest gap of the second.
+double rms_difference(const GapProfile& found, const GapProfile& wanted);
+/// Largest difference of the widths at x and -x, relative to the widest.
+double asymmetry(const GapProfile& gap);
+/// Root mean square of the difference from a sqrt(1 - (x / half_length)^2) with the best a,
+/// relative to a.
+double difference_from_ellipse(const GapProfile& gap, double half_length);
+
+}  // namespace sunder::test
