@@ -2,12 +2,15 @@
 // of their motion.
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <span>
 
 #include "bench/harness/in_turns.h"
 #include "bench/harness/json_object.h"
 #include "bench/particles/particles_decompose.h"
+#include "bench/particles/particles_membrane.h"
 #include "bench/particles/particles_repair.h"
 #include "bench/particles/particles_steps.h"
 #include "bench/particles/particles_surface.h"
@@ -16,7 +19,7 @@ namespace sunder::bench {
 namespace {
 
 constexpr const char* kHelp =
-    "bench_particles [--summary | --surfaces]\n"
+    "bench_particles [--summary | --surfaces | --gaps]\n"
     "\n"
     "The bunny with 1, 2, 3, 7 and 16 divisions per edge, on 64 bones. Medians, candidates in\n"
     "turns, one thread.\n"
@@ -34,8 +37,10 @@ constexpr const char* kHelp =
     "Steps: a SoftBody at 60 steps per second, every bone moving. The time that displacing all\n"
     "vertices adds to skinning has a column of its own.\n"
     "\n"
-    "Prints tables. --surfaces prints the table of displaced surfaces alone, --summary prints one "
-    "JSON object instead.\n"
+    "Gaps: the width of a slit in a sheet, under tension, against finite elements.\n"
+    "\n"
+    "Prints tables. --surfaces prints the table of displaced surfaces alone, --gaps that of gaps,\n"
+    "--summary prints one JSON object instead.\n"
     "  bunny_decompose_ms      ParticleSet::create() of 3,485 points, range a tenth of the "
     "diagonal\n"
     "  bunny_particles         number of its particles\n"
@@ -51,6 +56,17 @@ constexpr const char* kHelp =
     "the\n"
     "                          worst of the surfaces whose lips gape by a tenth of the range\n"
     "  tangent_dot_max         the largest |n . t| of displaced normals and tangents\n"
+    "  gap_d_ratio             the widest gap of a slit of 0.4 m over the narrowest, at ranges of "
+    "0.2,\n"
+    "                          0.1 and 0.05 m\n"
+    "  gap_asymmetry           its largest difference between x and -x, by the width, at 0.1 m\n"
+    "  ellipse_rms             difference of a slit on a very weak foundation from an ellipse, by "
+    "its\n"
+    "                          width; half the slit is four ranges\n"
+    "  reference_rms_at_200    difference of the gap of a slit of 0.25 m from finite elements, by "
+    "its\n"
+    "                          width, with 200 particles\n"
+    "  convergence_order       of the difference of the gap, from 0.2 m to 0.05 m\n"
     "  vs_nanoflann            bunny_decompose_ms / nanoflann's time for its tree and clusters;\n"
     "                          null if it is not built\n";
 
@@ -142,6 +158,23 @@ void print_surfaces() {
   std::fflush(stdout);
 }
 
+void print_gap(const char* name, const GapFigures& of) {
+  std::printf("%-8s %8.3f %9u %9.1f %9.4f %10.4f %7.3f %7.1f %10.1f\n", name, of.range,
+              of.particles, of.step_seconds * kMicroseconds, of.widest, of.reference_widest,
+              of.widest / of.reference_widest, 100 * of.rms, 100 * of.asymmetry);
+}
+
+void print_gaps() {
+  std::printf(
+      "Gaps of a slit in a sheet of one metre, 1.2 N/m, against finite elements; m. RMS and "
+      "asymmetry in percent of the width.\n"
+      "slit        range particles   step us     width  reference   ratio     RMS  asymmetry\n");
+  for (const GapFigures& figures : measure_gaps()) print_gap("0.4 m", figures);
+  print_gap("0.25 m", measure_gap_at_200());
+  std::printf("\n");
+  std::fflush(stdout);
+}
+
 constexpr std::uint32_t kStepped = 200;
 constexpr int kSteppedDivisions = 2;
 
@@ -164,6 +197,19 @@ void print_tables() {
     print_step(measure_steps(kSteppedDivisions, particles, 300));
   print_step(measure_steps(7, 10000, 60));
   print_surfaces();
+  print_gaps();
+}
+
+void add_gaps(JsonObject& object) {
+  const std::vector<GapFigures> gaps = measure_gaps();
+  const auto width = [](const GapFigures& of) { return of.widest; };
+  const std::span<const GapFigures> coarse = std::span(gaps).first(3);
+  object.add("gap_d_ratio", std::ranges::max(coarse, {}, width).widest /
+                                std::ranges::min(coarse, {}, width).widest);
+  object.add("gap_asymmetry", gaps[1].asymmetry);
+  object.add("ellipse_rms", measure_ellipse_rms());
+  object.add("reference_rms_at_200", measure_gap_at_200().rms);
+  object.add("convergence_order", std::log2(gaps[0].rms / gaps[2].rms) / 2);
 }
 
 void print_summary() {
@@ -190,6 +236,7 @@ void print_summary() {
   }
   object.add("normal_p99_degrees", normals);
   object.add("tangent_dot_max", tangents);
+  add_gaps(object);
   object.add("vs_nanoflann", bunny.vs_nanoflann());
   object.end();
 }
@@ -208,6 +255,10 @@ int main(int argc, char** argv) {
   }
   if (argc == 2 && std::strcmp(argv[1], "--surfaces") == 0) {
     sunder::bench::print_surfaces();
+    return 0;
+  }
+  if (argc == 2 && std::strcmp(argv[1], "--gaps") == 0) {
+    sunder::bench::print_gaps();
     return 0;
   }
   const bool asked = argc == 2 && std::strcmp(argv[1], "--help") == 0;

@@ -85,7 +85,7 @@ void BodyState::follow_forces(const TornModel& model, const ModelPose& pose) {
       if (motion.touched[p] != 0) motion.wake(p);
   for (Index p = 0; p < motion.count(); ++p)
     if (motion.awake[p] != 0) motion.touched[p] = motion.bound[p] = 0;
-  holds.begin_step(model, pose, rests, materials, poses, motion);
+  holds.begin_step(model, pose, rests, graph.masses, poses, motion);
 }
 
 /// Integrates the particles that are awake: each alone in closed form, then the corrections by
@@ -98,8 +98,7 @@ void BodyState::integrate(double seconds) {
   for (const Index p : scratch.active) {
     const SpringStep& step = steps[motion.material_of[p]];
     const Vec3d force = motion.forces[p] + multiply(rests.turn(p), motion.lip_forces[p]);
-    const Vec3d acceleration =
-        outer.gravity + motion.winds[p] + force / materials[motion.material_of[p]].mass;
+    const Vec3d acceleration = outer.gravity + motion.winds[p] + force / graph.masses[p];
     const Vec3d place = motion.displacements[p], velocity = motion.velocities[p];
     motion.starts[p] = place;
     motion.displacements[p] = step.place_from_place * place + step.place_from_velocity * velocity +
@@ -109,7 +108,7 @@ void BodyState::integrate(double seconds) {
                            step.velocity_from_acceleration() * acceleration;
   }
   if (seconds < kShortestStepSeconds) return;
-  solver.solve({graph, scratch.active, steps, materials, motion.material_of, motion.displacements,
+  solver.solve({graph, scratch.active, steps, motion.material_of, motion.displacements,
                 motion.velocities, holds.pulls(), seconds},
                motion.corrections);
   for (const Index p : scratch.active) {
@@ -158,8 +157,7 @@ void BodyState::step(const TornModel& model, const ModelPose& pose, bool is_pose
     if (motion.awake[p] != 0) active.push_back(p);
   if (!active.empty() && seconds > 0) {
     integrate(seconds);
-    if (has_stretch_limit())
-      limit_stretch({graph, materials, rests, active}, motion, scratch.changed);
+    if (has_stretch_limit()) limit_stretch({graph, rests, active}, motion, scratch.changed);
   }
   contact.push_out({*set, model, pose, is_posed, graph, rests, poses, seconds}, motion);
   contact.end_step();

@@ -49,7 +49,7 @@ Result<double> time_step(const TornModel& model, const ModelPose& pose, Particle
   for (int batch = 0; batch < kBatches; ++batch) {
     // In different directions, so that every spring is stretched.
     for (std::uint32_t p = 0; p < set.particle_count(); ++p) {
-      const Vec3d push = material.mass * set.range(p) *
+      const Vec3d push = body->mass(p) * set.range(p) *
                          Vec3d((p % 2 == 0) ? 1.0 : -1.0, (p % 3 == 0) ? 1.0 : -1.0, 0.5);
       if (Status status = body->add_impulse(p, push); !status) return status;
     }

@@ -10,18 +10,18 @@
 namespace sunder::particles {
 namespace {
 
-/// The four neighbours that share most with a particle, without `orphans`, which ascend.
+/// The four neighbours that are coupled most to a particle, without `orphans`, which ascend.
 ParticleInfluences like_neighbours(const ParticleSet& set, Index particle,
                                    std::span<const Index> orphans) {
   ParticleInfluences found;
   for (const ParticleNeighbour& neighbour : set.neighbours(particle)) {
     if (std::binary_search(orphans.begin(), orphans.end(), neighbour.particle)) continue;
     Index other = neighbour.particle;
-    auto shared = static_cast<float>(neighbour.shared);
+    auto coupling = static_cast<float>(neighbour.coupling);
     for (std::size_t k = 0; k < 4; ++k)
-      if (shared > found.weights[k]) {
+      if (coupling > found.weights[k]) {
         std::swap(other, found.particles[k]);
-        std::swap(shared, found.weights[k]);
+        std::swap(coupling, found.weights[k]);
       }
   }
   return found;

@@ -51,8 +51,7 @@ std::vector<OverstretchedPair> find_overstretched(const SoftBody& body,
   for (Index a = 0; a < body.particle_count(); ++a) {
     for (const ParticleNeighbour& neighbour : particles.neighbours(a)) {
       const Index b = neighbour.particle;
-      if (b <= a || neighbour.shared < kLeastSharedPoints ||
-          (!body.is_awake(a) && !body.is_awake(b)))
+      if (b <= a || neighbour.coupling < kLeastCoupling || (!body.is_awake(a) && !body.is_awake(b)))
         continue;
       const double stretch = stretch_of(body, particles, a, b), strength = strength_of(body, a, b);
       greatest = std::max(greatest, stretch);
@@ -81,7 +80,7 @@ Vec3d greatest_stretch_around(const SoftBody& body, const ParticleSet& particles
       const Eigen::Vector2d along = multiply(
           plane.transpose(), rest_place(body, neighbour.particle) - rest_place(body, particle));
       const Eigen::Vector3d now = body.place(neighbour.particle) - body.place(particle);
-      const double weight = particles.coupling(particle, neighbour);
+      const double weight = neighbour.coupling;
       moved += weight * now * along.transpose();
       at_rest += weight * along * along.transpose();
     }

@@ -17,8 +17,9 @@ Status validate_material(const SoftMaterial& material) {
   const std::array fields = {
       Field{"return_stiffness", material.return_stiffness, 0.0, 1e12},
       Field{"damping_ratio", material.damping_ratio, 0.0, 1e6},
-      Field{"neighbour_stiffness", material.neighbour_stiffness, 0.0, 1e12},
-      Field{"mass", material.mass, 1e-12, 1e12},
+      Field{"membrane_stiffness", material.membrane_stiffness, 0.0, 1e12},
+      Field{"membrane_damping", material.membrane_damping, 0.0, 1e12},
+      Field{"areal_density", material.areal_density, 1e-12, 1e12},
       Field{"range", material.range, 1e-6, 1.0},
       Field{"stretch_limit", material.stretch_limit == 0 ? 1.0 : material.stretch_limit, 1.0, 1e6},
       Field{"strength", material.strength == 0 ? 2.0 : material.strength, std::nextafter(1.0, 2.0),
@@ -39,13 +40,16 @@ Status validate_material(const SoftMaterial& material) {
 }
 
 std::span<const SoftMaterial> material_presets() {
+  // Areal densities are those of a layer of 0.4 mm (skin 1,109 kg/m3, rubber 950) or 0.8 mm (fat
+  // 911, muscle 1,090, a gel 1,000, a foam 250); tissues after Hasgall et al., IT'IS database,
+  // 2018. Stiffnesses and damping are chosen for the look of a model of about a metre.
   static const std::array presets = {
-      SoftMaterial{"skin", 400, 0.7, 900, 0.01, 0.08, 1.6, 1.8},
-      SoftMaterial{"fat", 90, 0.35, 150, 0.02, 0.12, 0, 2.2},
-      SoftMaterial{"muscle", 900, 0.8, 1600, 0.02, 0.1, 1.4, 1.6},
-      SoftMaterial{"rubber", 900, 0.15, 2500, 0.01, 0.1, 3.0, 4.0},
-      SoftMaterial{"sponge", 150, 1.0, 300, 0.005, 0.12, 0, 1.5},
-      SoftMaterial{"jelly", 60, 0.1, 250, 0.02, 0.15, 0, 1.7},
+      SoftMaterial{"skin", 400, 0.7, 9, 0.6, 0.44, 0.08, 1.6, 1.8},
+      SoftMaterial{"fat", 90, 0.35, 3, 0.2, 0.73, 0.12, 0, 2.2},
+      SoftMaterial{"muscle", 900, 0.8, 32, 1.7, 0.85, 0.1, 1.4, 1.6},
+      SoftMaterial{"rubber", 900, 0.15, 25, 0.25, 0.38, 0.1, 3.0, 4.0},
+      SoftMaterial{"sponge", 150, 1.0, 1.5, 0.25, 0.2, 0.12, 0, 1.5},
+      SoftMaterial{"jelly", 60, 0.1, 5, 0.13, 0.8, 0.15, 0, 1.7},
   };
   return presets;
 }

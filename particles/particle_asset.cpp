@@ -8,7 +8,6 @@
 #include "particles/clusters/decompose.h"
 #include "particles/clusters/decompose_model.h"
 #include "particles/clusters/gradients.h"
-#include "particles/clusters/pair_changes.h"
 #include "particles/clusters/read_model.h"
 #include "tear/internal/surface.h"
 
@@ -86,7 +85,6 @@ Result<std::shared_ptr<const ParticleAsset>> ParticleAsset::create(
     (void)structure->gradients->of(model.surface(), *structure);
     // Only sets that follow tears need scratch memory.
     structure->scratch = {};
-    structure->pairs.reset();
     return std::shared_ptr<const ParticleAsset>(new ParticleAsset(structure));
   } catch (const std::bad_alloc&) {
     return out_of_memory();

@@ -107,11 +107,9 @@ std::span<const ParticleNeighbour> ParticleSet::neighbours(std::uint32_t particl
   return data_->now().particles[particle].neighbours;
 }
 
-double ParticleSet::coupling(std::uint32_t particle, const ParticleNeighbour& neighbour) const {
-  SUNDER_ASSERT(particle < particle_count() && neighbour.particle < particle_count());
-  const double least = std::min(data_->now().particles[particle].weight,
-                                data_->now().particles[neighbour.particle].weight);
-  return least > 0 ? std::min(1.0, neighbour.shared / least) : 0.0;
+double ParticleSet::area(std::uint32_t particle) const {
+  SUNDER_ASSERT(particle < particle_count());
+  return data_->now().particles[particle].area;
 }
 
 const ParticleInfluences& ParticleSet::parents(std::uint32_t particle) const {
@@ -126,6 +124,7 @@ std::span<const ParticleMembership> ParticleSet::memberships(std::uint32_t point
 std::span<const ParticleInfluences> ParticleSet::influences() const {
   return data_->now().points.influences;
 }
+std::span<const std::uint32_t> ParticleSet::owners() const { return data_->now().points.owners; }
 std::span<const ParticleGradients> ParticleSet::gradients(const TornModel& model) {
   if (!data_->own) return data_->shared->gradients->known();
   try {

@@ -12,15 +12,16 @@ using particles::BodyState;
 using particles::Motion;
 using particles::Tape;
 
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 
 Status out_of_memory() {
   return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
 }
 
 void describe(Tape& tape, SoftMaterial& of) {
-  for (double* value : {&of.return_stiffness, &of.damping_ratio, &of.neighbour_stiffness, &of.mass,
-                        &of.range, &of.stretch_limit, &of.strength})
+  for (double* value :
+       {&of.return_stiffness, &of.damping_ratio, &of.membrane_stiffness, &of.membrane_damping,
+        &of.areal_density, &of.range, &of.stretch_limit, &of.strength})
     tape(*value);
   if (!tape.is_reading()) return;
   if (const Status status = validate_material(of); !status)

@@ -152,8 +152,7 @@ Status SoftBody::add_impulse(std::uint32_t particle, const Vec3d& newton_seconds
   if (Status status = check_finite("an impulse", newton_seconds); !status) return status;
   if (newton_seconds == Vec3d::Zero()) return {};
   auto& motion = state_->motion;
-  motion.velocities[particle] +=
-      newton_seconds / state_->materials[motion.material_of[particle]].mass;
+  motion.velocities[particle] += newton_seconds / mass(particle);
   state_->wake_around(particle);
   return {};
 }
@@ -365,6 +364,11 @@ Vec3d SoftBody::point_velocity(std::uint32_t point) const {
   return sum;
 }
 
+double SoftBody::mass(std::uint32_t particle) const {
+  SUNDER_ASSERT(particle < particle_count());
+  return particles::mass_of(*state_->set, state_->materials[state_->motion.material_of[particle]],
+                            particle);
+}
 std::uint32_t SoftBody::particle_count() const { return state_->motion.count(); }
 bool SoftBody::is_awake(std::uint32_t particle) const {
   SUNDER_ASSERT(particle < particle_count());

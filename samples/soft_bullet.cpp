@@ -68,7 +68,7 @@ sunder::Result<float> catch_ball(const sunder::Character& sheet, const sunder::P
                                  const btRigidBody& ball, btDiscreteDynamicsWorld& world) {
   sunder::BulletBodyOptions options;
   options.return_stiffness = 300;
-  options.neighbour_stiffness = 300;
+  options.neighbour_stiffness = 80;
   options.mass = 0.05;
   options.radius = 0.4;
   float angle = 0.2f;

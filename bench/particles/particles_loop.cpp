@@ -155,7 +155,7 @@ void Loop::push() {
   const SoftMaterial& material = body_->materials()[0];
   const double speed = 0.2 * std::sqrt(material.return_stiffness);  // times the range
   for (std::uint32_t p = 0; p < set_->particle_count(); ++p)
-    require(body_->add_impulse(p, material.mass * speed * set_->range(p) * random_.direction()));
+    require(body_->add_impulse(p, body_->mass(p) * speed * set_->range(p) * random_.direction()));
 }
 
 void Loop::update(const MeshChange& change) {

@@ -112,8 +112,8 @@ void push(const ParticleSet& set, const SoftMaterial& material, test::Random& ra
           SoftBody& body) {
   const double speed = 0.2 * std::sqrt(material.return_stiffness);  // times the range
   for (std::uint32_t particle = 0; particle < set.particle_count(); ++particle)
-    require(body.add_impulse(particle,
-                             material.mass * speed * set.range(particle) * random.direction()));
+    require(body.add_impulse(
+        particle, body.mass(particle) * speed * set.range(particle) * random.direction()));
 }
 
 }  // namespace

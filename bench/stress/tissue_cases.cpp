@@ -29,9 +29,10 @@ double any_or_none(Random& random, double low, double high) {
 SoftMaterial any_material(Random& random) {
   SoftMaterial material;
   material.return_stiffness = any_or_none(random, 1e-3, 1e9);
-  material.neighbour_stiffness = any_or_none(random, 1e-3, 1e9);
+  material.membrane_stiffness = any_or_none(random, 1e-3, 1e9);
   material.damping_ratio = any_or_none(random, 1e-3, 1e3);
-  material.mass = test::any_scale(random, 1e-9, 1e3);
+  material.membrane_damping = any_or_none(random, 1e-3, 1e6);
+  material.areal_density = test::any_scale(random, 1e-9, 1e3);
   if (random.index(3) == 0) material.stretch_limit = random.uniform(1, 3);
   return material;
 }

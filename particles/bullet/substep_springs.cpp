@@ -48,7 +48,7 @@ std::vector<SubstepSprings::Pair> SubstepSprings::pairs_of(const ParticleSet& se
   for (Index a = 0; a < set.particle_count(); ++a)
     for (const ParticleNeighbour& neighbour : set.neighbours(a)) {
       if (neighbour.particle <= a) continue;
-      const double coupling = set.coupling(a, neighbour);
+      const double coupling = neighbour.coupling;
       if (!(coupling > 0)) continue;
       pairs.push_back({a, neighbour.particle, coupling, 0, {}});
       coupled[a] += coupling;

@@ -37,6 +37,7 @@ void exchange_in_turn(std::vector<T>& changes, bool is_done, Exchange exchange_o
 void expect(const PointTable& points, Index point) {
   prefetch(&points.slabs[point]);
   prefetch(&points.influences[point]);
+  prefetch(&points.owners[point]);
   prefetch(&points.lip_points[point]);
 }
 
@@ -51,6 +52,7 @@ void exchange_changed(Structure& structure, Change& change, bool is_done) {
       expect(points, changed[static_cast<std::size_t>(next)].point);
     std::swap(points.slabs[of.point], of.slab);
     std::swap(points.influences[of.point], of.influences);
+    std::swap(points.owners[of.point], of.owner);
     std::swap(points.lip_points[of.point], of.lip);
   });
   exchange_in_turn(change.changed_particles, is_done, [&](std::pair<Index, Particle>& of) {

@@ -27,6 +27,7 @@ struct Change {
     Index point = 0;
     MembershipSlab slab;
     ParticleInfluences influences;
+    Index owner = kNone;
     LipPoint lip;
   };
   struct OfVertex {

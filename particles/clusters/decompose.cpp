@@ -3,8 +3,8 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "particles/clusters/cells.h"
 #include "particles/clusters/influences.h"
-#include "particles/clusters/pair_sums.h"
 #include "particles/clusters/rest_terms.h"
 #include "particles/internal/tolerances.h"
 #include "tear/internal/surface.h"
@@ -138,10 +138,14 @@ void decompose(const TornModel& model, const DecompositionOptions& options, Stru
   const std::vector<Visit> visits = take_seeds(surface, options.seed, structure, found);
   sort_memberships(visits, found, structure);
   structure.points.influences.resize(points);
-  for (Index p = 0; p < points; ++p)
-    structure.points.influences[p] = influences_from(structure.points.memberships_of(p));
+  structure.points.owners.resize(points);
+  for (Index p = 0; p < points; ++p) {
+    const std::span<const ParticleMembership> memberships = structure.points.memberships_of(p);
+    structure.points.influences[p] = influences_from(memberships);
+    structure.points.owners[p] = owner_of(memberships, structure.particles);
+  }
   sum_rest_terms(model, structure);
-  sum_pairs(structure);
+  sum_cells(surface, structure);
 
   DecompositionReport& report = structure.report;
   report.particles = static_cast<Index>(structure.particles.size());

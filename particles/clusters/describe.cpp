@@ -44,14 +44,17 @@ void describe(Tape& tape, RestMorphTerm& of) {
 
 void describe(Tape& tape, ParticleNeighbour& of) {
   tape(of.particle);
-  tape(of.points);
-  tape(of.shared);
+  tape(of.edges);
+  tape(of.coupling);
+  tape(of.across);
+  tape(of.middles);
 }
 
 void describe(Tape& tape, Change::OfPoint& of) {
   tape(of.point);
   describe(tape, of.slab);
   describe(tape, of.influences);
+  tape(of.owner);
   describe(tape, of.lip);
 }
 
@@ -135,6 +138,7 @@ void describe_points(Tape& tape, PointTable& of, const PointTable& before) {
   describe_tail(tape, of.vertices, before.vertices, [&](VertexRef& at) { describe(tape, at); });
   describe_changed(tape, of.slabs, before.slabs);
   describe_changed(tape, of.influences, before.influences);
+  describe_changed(tape, of.owners, before.owners);
   describe_changed(tape, of.lip_points, before.lip_points);
   // Those after the end are of operations that were undone.
   const auto appended = of.memberships.from(before.memberships.size());
@@ -233,7 +237,7 @@ void describe(Tape& tape, Particle& of) {
   tape(of.seed);
   tape(of.range);
   tape(of.member_count);
-  tape(of.weight);
+  tape(of.area);
   describe_each(tape, of.terms);
   describe_each(tape, of.morph_terms);
   describe_each(tape, of.neighbours);

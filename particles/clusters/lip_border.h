@@ -8,6 +8,14 @@
 namespace sunder::particles {
 using tear::Surface;
 
+/// Whether a triangle is part of a wall or cap.
+[[nodiscard]] inline bool is_filling(const Surface& surface, Index triangle) {
+  if (triangle < surface.first_triangle.back()) return false;
+  const tear::TriangleRef& ref = surface.appended[triangle - surface.first_triangle.back()];
+  return ref.source_triangle >=
+         surface.first_triangle[ref.mesh + 1] - surface.first_triangle[ref.mesh];
+}
+
 /// The borders of the surface without the walls and caps that close it.
 class LipBorder {
  public:
@@ -15,9 +23,9 @@ class LipBorder {
 
   /// Whether a half-edge is a border: it has a face on its own side only.
   [[nodiscard]] bool has(Index half_edge) const {
-    if (is_filling(half_edge / 3)) return false;
+    if (is_filling(surface_, half_edge / 3)) return false;
     const Index twin = surface_.twin[half_edge];
-    return twin == kNone || is_filling(twin / 3);
+    return twin == kNone || is_filling(surface_, twin / 3);
   }
   /// The border half-edge that leaves a point, or that arrives at it; kNone if there is none.
   [[nodiscard]] Index leaving(Index point) const {
@@ -47,14 +55,6 @@ class LipBorder {
       corner = surface_.rotate_ccw(corner);
     } while (corner != kNone && corner != first);
     return kNone;
-  }
-
-  /// Whether a triangle is part of a wall or cap.
-  [[nodiscard]] bool is_filling(Index triangle) const {
-    if (triangle < surface_.first_triangle.back()) return false;
-    const tear::TriangleRef& ref = surface_.appended[triangle - surface_.first_triangle.back()];
-    return ref.source_triangle >=
-           surface_.first_triangle[ref.mesh + 1] - surface_.first_triangle[ref.mesh];
   }
 
   const Surface& surface_;

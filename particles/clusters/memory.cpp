@@ -1,6 +1,5 @@
 #include "particles/clusters/band.h"
 #include "particles/clusters/gradients.h"
-#include "particles/clusters/pair_changes.h"
 #include "particles/clusters/set_data.h"
 
 namespace sunder::particles {
@@ -24,7 +23,7 @@ std::size_t bytes_of(const Particle& particle) {
 
 std::size_t bytes_of(const PointColumns& columns) {
   return bytes_of(columns.positions) + bytes_of(columns.vertices) + bytes_of(columns.slabs) +
-         bytes_of(columns.influences) + bytes_of(columns.lip_points);
+         bytes_of(columns.influences) + bytes_of(columns.owners) + bytes_of(columns.lip_points);
 }
 
 std::size_t bytes_of(const Change& change) {
@@ -62,7 +61,6 @@ std::size_t Structure::memory_bytes() const {
                       bytes_of(scratch) + gradients->memory_bytes();
   if (members.decomposed.use_count() == 1)
     bytes += bytes_of(members.decomposed->first) + bytes_of(members.decomposed->points);
-  if (pairs) bytes += sizeof(PairChanges) + PairChanges::kBytes;
   for (const Particle& particle : particles) bytes += bytes_of(particle);
   for (const Change& change : tears.done) bytes += bytes_of(change);
   for (const Change& change : tears.undone) bytes += bytes_of(change);

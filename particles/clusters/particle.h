@@ -24,7 +24,7 @@ struct Particle {
   Index seed = 0;
   float range = 0;
   Index member_count = 0;
-  double weight = 0;  ///< Sum of its weights in all influences.
+  double area = 0;  ///< Of its cell: a third of each face around its points, square metres.
   std::vector<RestTerm> terms;
   std::vector<RestMorphTerm> morph_terms;
   std::vector<ParticleNeighbour> neighbours;  ///< Ascending.

@@ -32,6 +32,7 @@ struct PointColumns {
   std::vector<VertexRef> vertices;
   std::vector<MembershipSlab> slabs;
   std::vector<ParticleInfluences> influences;
+  std::vector<Index> owners;  ///< The particle in whose cell the point is; kNone: none.
   std::vector<LipPoint> lip_points;
 
   /// Calls visit(column, column of `other`) for each column; the only place that lists them.
@@ -41,6 +42,7 @@ struct PointColumns {
     visit(vertices, other.vertices);
     visit(slabs, other.slabs);
     visit(influences, other.influences);
+    visit(owners, other.owners);
     visit(lip_points, other.lip_points);
   }
 };

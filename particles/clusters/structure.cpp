@@ -4,12 +4,10 @@
 
 #include "particles/clusters/band.h"
 #include "particles/clusters/gradients.h"
-#include "particles/clusters/pair_changes.h"
 
 namespace sunder::particles {
 
-Structure::Structure()
-    : pairs(std::make_unique<PairChanges>()), gradients(std::make_unique<Gradients>()) {}
+Structure::Structure() : gradients(std::make_unique<Gradients>()) {}
 Structure::~Structure() = default;
 
 std::unique_ptr<Structure> Structure::copy() const {

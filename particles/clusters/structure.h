@@ -13,7 +13,6 @@ namespace sunder::particles {
 
 struct Band;
 class Gradients;
-class PairChanges;
 
 /// Data of the character from which the structure was created.
 struct CharacterLink {
@@ -68,7 +67,6 @@ struct Structure {
 
   // ---- Scratch memory.
   RepairScratch scratch;
-  std::unique_ptr<PairChanges> pairs;
   std::unique_ptr<Gradients> gradients;
 
   /// A copy of a structure that no tear has changed, with scratch memory of its own.

@@ -32,7 +32,7 @@ class Check {
   void particle(const Particle& of, const Counts& in);
   void pending(const PendingWork& of, const Counts& in);
   void point(Index point, const MembershipSlab& slab, const ParticleInfluences& influences,
-             const LipPoint& lip);
+             Index owner, const LipPoint& lip);
   void history(std::vector<Counts> levels);
   void change(const Change& of, Index level);
   void now();
@@ -58,7 +58,8 @@ void Check::sizes() {
   const std::size_t count = points.positions.size();
   require(count == model_.point_count(), "it has another number of points than the model");
   require(points.vertices.size() == count && points.slabs.size() == count &&
-              points.influences.size() == count && points.lip_points.size() == count,
+              points.influences.size() == count && points.owners.size() == count &&
+              points.lip_points.size() == count,
           "its points have other data than they need");
   require(structure_.members.joined.size() == structure_.particles.size(),
           "its particles have no members");
@@ -113,11 +114,12 @@ void Check::pending(const PendingWork& of, const Counts& in) {
   for (const Index particle : of.to_grow) require(particle < in.particles, "a particle to grow");
 }
 
-void Check::point(Index point, const MembershipSlab& of, const ParticleInfluences& by,
+void Check::point(Index point, const MembershipSlab& of, const ParticleInfluences& by, Index owner,
                   const LipPoint& lip) {
   const Counts& in = levels_[since_.points[point]];
   slab(of, in);
   influences(by, in);
+  require(owner == kNone || owner < in.particles, "the cell of a point", point);
   lip_point(lip, in);
 }
 
@@ -147,7 +149,7 @@ void Check::change(const Change& of, Index level) {
   for (const Change::OfPoint& changed : of.changed_points) {
     require(changed.point < in.points, "a changed point", changed.point);
     if (!status_) return;
-    point(changed.point, changed.slab, changed.influences, changed.lip);
+    point(changed.point, changed.slab, changed.influences, changed.owner, changed.lip);
     since_.points[changed.point] = level + 1;
   }
   for (const auto& [index, before] : of.changed_particles) {
@@ -181,7 +183,7 @@ void Check::now() {
   if (!status_) return;
   const PointTable& points = structure_.points;
   for (Index p = 0; p < points.count(); ++p)
-    point(p, points.slabs[p], points.influences[p], points.lip_points[p]);
+    point(p, points.slabs[p], points.influences[p], points.owners[p], points.lip_points[p]);
   for (Index i = 0; i < points.older_lips.size(); ++i)
     require((points.older_lips[i].older == kNone || points.older_lips[i].older < i) &&
                 (points.older_lips[i].tear == kNone ||

@@ -19,6 +19,19 @@ inline constexpr float kUncoveredReach = 0.97f;
 static_assert(kLipCoveredReach < kSeedSpacingReach && kSeedSpacingReach < kUncoveredReach &&
               kUncoveredReach < 1);
 
+// ---- Cells.
+
+/// Two seeds whose path across their border is longer than this multiple of their distance are on
+/// both sides of a slit. On an unbroken surface it is below 2 / kSeedSpacingReach.
+inline constexpr double kBentPath = 2.5;
+static_assert(kBentPath > 2 / kSeedSpacingReach);
+/// A face whose doubled area is below this fraction of its longest squared edge has no reliable
+/// angles.
+inline constexpr double kNeedleFraction = 1e-6;
+/// Least area of a cell as a part of the squared range, so that every particle has a mass: also
+/// those of walls and caps, and those to whose seed no point is nearest.
+inline constexpr double kLeastCellArea = 0.01;
+
 // ---- Sleep. Bound particles (held, touched, at a stretch limit) and their neighbours are pulled
 // away and pushed back in every step, so they never stop moving a little.
 
@@ -66,10 +79,10 @@ static_assert(kStretchExcess < kStretchWakesExcess);
 /// Particles at a tear may nearly coincide at rest. Their distance then counts as that of
 /// neighbouring seeds.
 inline constexpr double kLeastApartRanges = 0.8;
-/// Minimum ParticleNeighbour::shared of particles that count as connected. Splinters at a tear, of
-/// a few points that other particles share, would otherwise be torn without effect at the same
-/// place again and again.
-inline constexpr double kLeastSharedPoints = 0.05;
+/// Minimum ParticleNeighbour::coupling of particles that count as connected. Cells that touch at
+/// little more than a point would otherwise be torn without effect at the same place again and
+/// again.
+inline constexpr double kLeastCoupling = 0.02;
 /// A tear continues if the cosine of the angle between its last edge and its direction is at least
 /// this.
 inline constexpr double kLeastForwardCosine = 0.2;

@@ -49,7 +49,7 @@ void CouplingSolver::assemble(const Inputs& in) {
     const double ratio = ratios_[in.material_of[p]];
     const Vec3d& place = in.places[p];
     const Vec3d& velocity = in.velocities[p];
-    double sum = in.materials[in.material_of[p]].mass / step.place_from_acceleration;
+    double sum = in.graph.masses[p] / step.place_from_acceleration;
     Vec3d pull = Vec3d::Zero();
     for (const Spring& spring : in.graph.of(p)) {
       if (!(spring.stiffness > 0)) continue;

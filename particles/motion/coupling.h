@@ -35,8 +35,7 @@ class CouplingSolver {
     const SpringGraph& graph;
     /// Particles that move, ascending; the others keep their places.
     std::span<const Index> active;
-    std::span<const SpringStep> steps;  ///< Per material.
-    std::span<const SoftMaterial> materials;
+    std::span<const SpringStep> steps;   ///< Per material.
     std::span<const Index> material_of;  ///< Per particle.
     /// Per particle: p, q; if it does not move, u and 0.
     std::span<const Vec3d> places, velocities;

@@ -64,8 +64,7 @@ void HoldList::follow(const ParticleSet& set) {
 }
 
 void HoldList::begin_step(const TornModel& model, const ModelPose& pose, const RestMotion& rests,
-                          std::span<const SoftMaterial> materials, EpochPose& poses,
-                          Motion& motion) {
+                          std::span<const double> masses, EpochPose& poses, Motion& motion) {
   pulls_.clear();
   for (Hold& hold : holds_) {
     PointPull& pull = pulls_.emplace_back();
@@ -73,8 +72,7 @@ void HoldList::begin_step(const TornModel& model, const ModelPose& pose, const R
     pull.particles = hold.whom.particles;
     for (std::size_t k = 0; k < 4; ++k) {
       pull.weights[k] = double{hold.whom.weights[k]};
-      if (pull.weights[k] > 0)
-        mass += pull.weights[k] * materials[motion.material_of[pull.particles[k]]].mass;
+      if (pull.weights[k] > 0) mass += pull.weights[k] * masses[pull.particles[k]];
     }
     pull.stiffness = hold.stiffness * mass;
     pull.frequency = std::sqrt(hold.stiffness);

@@ -38,7 +38,7 @@ class HoldList {
   /// Sets up pulls() for a step, and wakes the particles whose pull differs from that of the last
   /// step.
   void begin_step(const TornModel& model, const ModelPose& pose, const RestMotion& rests,
-                  std::span<const SoftMaterial> materials, EpochPose& poses, Motion& motion);
+                  std::span<const double> masses, EpochPose& poses, Motion& motion);
   /// Passes its state to a tape.
   template <class Tape>
   void describe(Tape& tape, Index particles, Index points) {

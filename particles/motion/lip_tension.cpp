@@ -21,16 +21,13 @@ Vec3d pull_of(const LipEdge& lip, std::span<const Vec3f> positions, const Tensio
 }  // namespace
 
 void add_lip_forces(std::span<const LipEdge> lips, std::span<const Vec3f> positions,
-                    std::span<const ParticleInfluences> influences, const Tension& tension,
+                    std::span<const Index> owners, const Tension& tension,
                     std::span<Vec3d> forces) {
   if (!(tension.newtons_per_metre > 0)) return;
   for (const LipEdge& lip : lips) {
     const Vec3d half = 0.5 * pull_of(lip, positions, tension);
-    for (const Index point : lip.points) {
-      const ParticleInfluences& of = influences[point];
-      for (std::size_t k = 0; k < 4 && of.weights[k] > 0; ++k)
-        forces[of.particles[k]] += double{of.weights[k]} * half;
-    }
+    for (const Index point : lip.points)
+      if (owners[point] != kNone) forces[owners[point]] += half;
   }
 }
 
@@ -38,7 +35,7 @@ void pull_lips(const ParticleSet& set, const Tension& tension, Motion& motion,
                std::vector<Vec3d>& scratch, std::vector<Index>& changed) {
   scratch.assign(motion.count(), Vec3d::Zero());
   changed.clear();
-  add_lip_forces(set.lips(), set.positions(), set.influences(), tension, scratch);
+  add_lip_forces(set.lips(), set.positions(), set.owners(), tension, scratch);
   for (Index p = 0; p < motion.count(); ++p)
     if (motion.lip_forces[p] != scratch[p]) {
       motion.lip_forces[p] = scratch[p];

@@ -7,13 +7,11 @@
 namespace sunder::particles {
 
 /// Adds the force of the tension at lips, where the tissue across the edge no longer balances it:
-/// half of an edge's force at each of its ends, distributed to particles by the influences of the
-/// end.
-/// @param positions, influences  per point.
+/// half of an edge's force on the cell of each of its ends.
+/// @param positions, owners  per point.
 /// @param forces  per particle, added to: newtons, in the decomposition's pose.
 void add_lip_forces(std::span<const LipEdge> lips, std::span<const Vec3f> positions,
-                    std::span<const ParticleInfluences> influences, const Tension& tension,
-                    std::span<Vec3d> forces);
+                    std::span<const Index> owners, const Tension& tension, std::span<Vec3d> forces);
 
 /// Writes Motion::lip_forces. @param changed  written: particles whose force changed. O(particles +
 /// lip edges).

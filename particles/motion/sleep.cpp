@@ -9,6 +9,7 @@ namespace sunder::particles {
 Pull pull_on(Index p, const SpringGraph& graph, std::span<const SoftMaterial> materials,
              const RestMotion& rests, const Vec3d& gravity, const Motion& motion) {
   const SoftMaterial& material = materials[motion.material_of[p]];
+  const double mass = graph.masses[p];
   const Vec3d outer = motion.forces[p] + multiply(rests.turn(p), motion.lip_forces[p]);
   Vec3d inner = Vec3d::Zero();
   double stiffness = 0;
@@ -17,11 +18,10 @@ Pull pull_on(Index p, const SpringGraph& graph, std::span<const SoftMaterial> ma
     stiffness += spring.stiffness;
   }
   Pull pull;
-  const Vec3d pushed = gravity + motion.winds[p] + outer / material.mass;
+  const Vec3d pushed = gravity + motion.winds[p] + outer / mass;
   pull.is_pushed = pushed != Vec3d::Zero();
-  pull.acceleration =
-      pushed + inner / material.mass - material.return_stiffness * motion.displacements[p];
-  pull.stiffness = material.return_stiffness + stiffness / material.mass;
+  pull.acceleration = pushed + inner / mass - material.return_stiffness * motion.displacements[p];
+  pull.stiffness = material.return_stiffness + stiffness / mass;
   return pull;
 }
 

@@ -3,19 +3,44 @@
 #include <algorithm>
 #include <cmath>
 
+#include "particles/internal/tolerances.h"
+
 namespace sunder::particles {
 
+namespace {
+
+double harmonic_mean(double a, double b) { return a + b > 0 ? 2 * a * (b / (a + b)) : 0.0; }
+
+}  // namespace
+
 Spring spring_between(const SoftMaterial& a, const SoftMaterial& b, double coupling) {
-  const double mass = 0.5 * (a.mass + b.mass), ratio = 0.5 * (a.damping_ratio + b.damping_ratio);
-  const double stiffness = 0.5 * (a.neighbour_stiffness + b.neighbour_stiffness);
   Spring spring;
-  spring.frequency = std::sqrt(stiffness);
-  spring.stiffness = coupling * mass * stiffness;
-  spring.damping = coupling * mass * 2 * ratio * spring.frequency;
+  spring.stiffness = coupling * harmonic_mean(a.membrane_stiffness, b.membrane_stiffness);
+  spring.damping = coupling * harmonic_mean(a.membrane_damping, b.membrane_damping);
   spring.stretch_limit = a.stretch_limit == 0   ? b.stretch_limit
                          : b.stretch_limit == 0 ? a.stretch_limit
                                                 : std::min(a.stretch_limit, b.stretch_limit);
   return spring;
+}
+
+double mass_of(const ParticleSet& set, const SoftMaterial& material, Index particle) {
+  const double range = set.range(particle);
+  return material.areal_density * std::max(set.area(particle), kLeastCellArea * range * range);
+}
+
+void set_frequencies(SpringGraph& graph) {
+  // The squared frequencies of a network are at most twice the largest rate of a particle.
+  graph.rates.clear();
+  for (Index p = 0; p < graph.masses.size(); ++p) {
+    double sum = 0;
+    for (const Spring& spring : graph.of(p)) sum += spring.stiffness;
+    graph.rates.push_back(sum / graph.masses[p]);
+  }
+  for (Index p = 0; p < graph.masses.size(); ++p)
+    for (Index s = graph.first[p]; s < graph.first[p + 1]; ++s) {
+      Spring& spring = graph.springs[s];
+      spring.frequency = std::sqrt(graph.rates[p] + graph.rates[spring.other]);
+    }
 }
 
 void connect(const ParticleSet& set, std::span<const SoftMaterial> materials,
@@ -23,16 +48,19 @@ void connect(const ParticleSet& set, std::span<const SoftMaterial> materials,
   graph.is_stale = true;
   graph.springs.clear();
   graph.first.assign(1, 0);
+  graph.masses.clear();
   for (Index p = 0; p < set.particle_count(); ++p) {
     for (const ParticleNeighbour& neighbour : set.neighbours(p)) {
       Spring spring =
           spring_between(materials[material_of[p]], materials[material_of[neighbour.particle]],
-                         set.coupling(p, neighbour));
+                         neighbour.coupling);
       spring.other = neighbour.particle;
       graph.springs.push_back(spring);
     }
     graph.first.push_back(static_cast<Index>(graph.springs.size()));
+    graph.masses.push_back(mass_of(set, materials[material_of[p]], p));
   }
+  set_frequencies(graph);
   graph.is_stale = false;
 }
 

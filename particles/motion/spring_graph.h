@@ -14,7 +14,8 @@ struct Spring {
   Index other = 0;
   double stiffness = 0;  ///< Newtons per metre.
   double damping = 0;    ///< Newton seconds per metre.
-  double frequency = 0;  ///< Root of stiffness / mass, and coupling; radians per second.
+  /// An upper bound of the frequencies of the springs around its two ends, radians per second.
+  double frequency = 0;
   double stretch_limit = 0;
 };
 
@@ -22,20 +23,28 @@ struct Spring {
 struct SpringGraph {
   std::vector<Index> first = {0};  ///< Per particle its first spring; the total at the end.
   std::vector<Spring> springs;
-  bool is_stale = true;  ///< Whether particles or materials changed since connect().
+  std::vector<double> masses;  ///< Per particle, kilograms.
+  std::vector<double> rates;  ///< Per particle: sum of its springs' stiffnesses by its mass, 1/s^2.
+  bool is_stale = true;       ///< Whether particles or materials changed since connect().
 
   [[nodiscard]] std::span<const Spring> of(Index particle) const {
     return {springs.data() + first[particle], first[particle + 1] - first[particle]};
   }
 };
 
-/// Connects all neighbours. If their materials differ, the spring has the means of stiffness, ratio
-/// and mass, and the smaller stretch limit.
+/// The mass of a particle of a material, kilograms.
+[[nodiscard]] double mass_of(const ParticleSet& set, const SoftMaterial& material, Index particle);
+
+/// Connects all neighbours. If their materials differ, the spring has the harmonic means of
+/// stiffness and damping, as half of it is in each material, and the smaller stretch limit.
 /// @param material_of  per particle. O(pairs of neighbours). @throws std::bad_alloc
 void connect(const ParticleSet& set, std::span<const SoftMaterial> materials,
              std::span<const Index> material_of, SpringGraph& graph);
 
-/// The spring of two materials, before its other end is known.
+/// Sets the frequencies of all springs from their stiffnesses and the masses.
+void set_frequencies(SpringGraph& graph);
+
+/// The spring of two materials, before its other end and its frequency are known.
 [[nodiscard]] Spring spring_between(const SoftMaterial& a, const SoftMaterial& b, double coupling);
 
 }  // namespace sunder::particles

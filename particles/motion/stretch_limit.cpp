@@ -31,9 +31,8 @@ void for_each_limited(const StretchWorld& world, const Motion& motion, Visit vis
       const double most = spring.stretch_limit * norm(at_rest);
       if (!(most > 0)) continue;
       const Vec3d apart = at_rest + motion.displacements[spring.other] - motion.displacements[p];
-      const double mine = 1 / world.materials[motion.material_of[p]].mass;
-      const double yours =
-          is_other_free ? 1 / world.materials[motion.material_of[spring.other]].mass : 0.0;
+      const double mine = 1 / world.graph.masses[p];
+      const double yours = is_other_free ? 1 / world.graph.masses[spring.other] : 0.0;
       visit(LimitedPair{p, spring.other, apart, norm(apart), most, mine / (mine + yours),
                         yours / (mine + yours)});
     }

@@ -8,7 +8,6 @@ namespace sunder::particles {
 /// The particles whose springs may reach their limits.
 struct StretchWorld {
   const SpringGraph& graph;
-  std::span<const SoftMaterial> materials;
   const RestMotion& rests;
   std::span<const Index> active;  ///< Particles that move, ascending.
 };

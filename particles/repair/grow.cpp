@@ -31,7 +31,8 @@ void begin_growing(StructureEdit& edit, Index particle) {
   Index seed = structure.particles[particle].seed;
   if (edit.surface().point_corner[seed] == kNone) {
     const std::vector<Index> members = structure.members_of(particle);
-    edit.change_particle(particle).seed = seed = nearest_member(edit, particle, members);
+    seed = nearest_member(edit, particle, members);
+    edit.move_seed(particle, seed);
   }
   SurfaceFront& front = structure.scratch.band_front;
   front.begin(structure.points.count(), structure.particles[particle].range,

@@ -75,6 +75,7 @@ void append_points(StructureEdit& edit) {
     points.positions.push_back(position);
     points.slabs.emplace_back();
     points.influences.emplace_back();
+    points.owners.push_back(kNone);
     points.lip_points.emplace_back();
   }
   for (Index m = 0; m < character.meshes.size(); ++m) {

@@ -9,6 +9,7 @@
 #include "particles/repair/lip_points.h"
 #include "particles/repair/lip_sides.h"
 #include "particles/repair/new_points.h"
+#include "particles/repair/renew_cells.h"
 #include "particles/repair/vertex_points.h"
 
 namespace sunder::particles {
@@ -43,6 +44,7 @@ void follow_operation(const TornModel& model, Structure& structure,
   TearLog& tears = structure.tears;
   StructureEdit edit(model, structure, tears.done.back(),
                      static_cast<Index>(tears.done.size() - 1));
+  const RewrittenFaces rewritten = find_rewritten_faces(model, structure, changes);
   append_points(edit);
   follow_changed_weights(edit, changes);
   std::vector<Index> lost = leave_lost_points(edit, changes);
@@ -58,7 +60,7 @@ void follow_operation(const TornModel& model, Structure& structure,
     if (!lost.empty() || is_band_outdated) begin_hole(edit);
   }
   renew_lip_edges(edit, lips, lost);
-  edit.finish();
+  edit.finish(rewritten);
 }
 
 void settle_band(const TornModel& model, Structure& structure, Index points) {
@@ -66,7 +68,7 @@ void settle_band(const TornModel& model, Structure& structure, Index points) {
   while (tears.band && points > 0) {
     StructureEdit edit(model, structure, tears.done.back(), tears.band->tear);
     points = widen_band(edit, points);
-    edit.finish();
+    edit.finish({});
   }
 }
 

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 
+#include "particles/clusters/cells.h"
 #include "particles/clusters/influences.h"
-#include "particles/clusters/pair_changes.h"
+#include "particles/repair/renew_cells.h"
 
 namespace sunder::particles {
 namespace {
@@ -34,8 +35,8 @@ StructureEdit::Work& StructureEdit::work_of(Index point) {
     scratch.work_of[point] = static_cast<Index>(works_.size());
     const auto known = structure_.points.memberships_of(point);
     const auto count = static_cast<Index>(known.size());
-    works_.push_back(
-        {point, static_cast<Index>(memberships_.size()), count, count + kMoreMemberships});
+    works_.push_back({point, static_cast<Index>(memberships_.size()), count,
+                      count + kMoreMemberships, structure_.points.owners[point]});
     memberships_.insert(memberships_.end(), known.begin(), known.end());
     memberships_.resize(memberships_.size() + kMoreMemberships);
   }
@@ -72,7 +73,8 @@ void StructureEdit::join(Index point, const ParticleMembership& membership) {
       return;
     }
   if (work.count == work.room) {
-    const Work moved{point, static_cast<Index>(memberships_.size()), work.count, 2 * work.room + 2};
+    const Work moved{point, static_cast<Index>(memberships_.size()), work.count, 2 * work.room + 2,
+                     work.owner};
     memberships_.resize(moved.first + moved.room);
     std::copy_n(memberships_.begin() + work.first, work.count, memberships_.begin() + moved.first);
     work = moved;
@@ -87,11 +89,21 @@ Particle& StructureEdit::change_particle(Index particle) {
   return structure_.particles[particle];
 }
 
+void StructureEdit::move_seed(Index particle, Index seed) {
+  change_particle(particle).seed = seed;
+  moved_seeds_.push_back(particle);
+}
+
+Index StructureEdit::owner_before(Index point) const {
+  if (!structure_.scratch.worked.has(point)) return structure_.points.owners[point];
+  return works_[structure_.scratch.work_of[point]].owner;
+}
+
 void StructureEdit::log_point(Index point) {
   const PointTable& points = structure_.points;
   if (point < change_.points && structure_.scratch.logged_points.mark(point))
-    change_.changed_points.push_back(
-        {point, points.slabs[point], points.influences[point], points.lip_points[point]});
+    change_.changed_points.push_back({point, points.slabs[point], points.influences[point],
+                                      points.owners[point], points.lip_points[point]});
 }
 
 Index StructureEdit::make_particle(Index seed, float range, const ParticleInfluences& parents) {
@@ -141,16 +153,6 @@ void StructureEdit::sum_rests() {
   counted_.clear();
 }
 
-void StructureEdit::renew_influences(Index point, std::span<const ParticleMembership> now) {
-  ParticleInfluences& known = structure_.points.influences[point];
-  const ParticleInfluences influences = influences_from(now);
-  if (influences == known) return;
-  const auto changing = [&](Index particle) -> Particle& { return change_particle(particle); };
-  structure_.pairs->add(known, -1, changing);
-  structure_.pairs->add(influences, +1, changing);
-  known = influences;
-}
-
 void StructureEdit::put_back(const Work& work) {
   const std::span<ParticleMembership> now(memberships_.data() + work.first, work.count);
   const auto by_particle = [](const ParticleMembership& a, const ParticleMembership& b) {
@@ -167,18 +169,19 @@ void StructureEdit::put_back(const Work& work) {
   structure_.dirty.push_back(work.point);
   log_point(work.point);
   count_members(work.point, before, now);
-  renew_influences(work.point, now);
+  points.influences[work.point] = influences_from(now);
+  points.owners[work.point] = owner_of(now, structure_.particles);
   points.slabs[work.point] = {static_cast<Index>(points.memberships.size()),
                               static_cast<Index>(now.size())};
   points.memberships.append(now);
 }
 
-void StructureEdit::finish() {
+void StructureEdit::finish(const RewrittenFaces& rewritten) {
   MembershipList& memberships = structure_.points.memberships;
   memberships.reserve(memberships_.size());
   for (const Work& work : works_) put_back(work);
   sum_rests();
-  structure_.pairs->apply([&](Index particle) -> Particle& { return change_particle(particle); });
+  renew_cells(*this, rewritten);
   PointTable& points = structure_.points;
   change_.ends_after = points.ends = {memberships.size(), points.older_lips.size()};
   ++structure_.revision;

@@ -5,6 +5,8 @@
 
 namespace sunder::particles {
 
+struct RewrittenFaces;
+
 /// One call's changes to a structure. Memberships of changing points are kept separately and
 /// written back together, so that each point is removed from the sums of its particles and added to
 /// others once. All changes are logged in a Change, for undo.
@@ -22,6 +24,10 @@ class StructureEdit {
   [[nodiscard]] Index tear() const { return tear_; }
   /// Points from this index on were created by this call.
   [[nodiscard]] Index first_new_point() const { return first_new_point_; }
+  /// The cell in which a point was before the edit; kNone for a new one.
+  [[nodiscard]] Index owner_before(Index point) const;
+  /// Particles whose seed the edit moved.
+  [[nodiscard]] std::span<const Index> moved_seeds() const { return moved_seeds_; }
   /// Memory for neighbours of points, and a second one for use while the first is in use.
   [[nodiscard]] RingWalk& ring() { return ring_; }
   [[nodiscard]] RingWalk& other_ring() { return other_ring_; }
@@ -63,15 +69,18 @@ class StructureEdit {
   Index make_particle(Index seed, float range, const ParticleInfluences& parents);
   /// Logs a particle before it changes. The reference is valid until the next make_particle().
   Particle& change_particle(Index particle);
+  void move_seed(Index particle, Index seed);
 
   /// Ends the call: writes all changes to the structure.
-  void finish();
+  /// @param rewritten  by the operation that the call follows.
+  void finish(const RewrittenFaces& rewritten);
 
  private:
   /// A point of the edit, and its range in memberships_.
   struct Work {
     Index point = 0;
     Index first = 0, count = 0, room = 0;
+    Index owner = kNone;  ///< Before the edit.
   };
   /// A point that a particle gained or lost.
   struct Counted {
@@ -84,7 +93,6 @@ class StructureEdit {
   void count_members(Index point, std::span<const ParticleMembership> before,
                      std::span<const ParticleMembership> now);
   void sum_rests();
-  void renew_influences(Index point, std::span<const ParticleMembership> now);
 
   const TornModel& model_;
   const Surface& surface_;
@@ -97,6 +105,7 @@ class StructureEdit {
   std::vector<Work> works_;
   std::vector<ParticleMembership> memberships_;
   std::vector<Counted> counted_;
+  std::vector<Index> moved_seeds_;
 };
 
 }  // namespace sunder::particles

@@ -40,7 +40,7 @@ Quatd random_turn(test::Random& random) {
 Vec3d momentum(const SoftScene& scene) {
   Vec3d sum = Vec3d::Zero();
   for (std::uint32_t p = 0; p < scene.count(); ++p)
-    sum += scene.body->materials()[scene.body->material_of(p)].mass * scene.body->velocity(p);
+    sum += scene.body->mass(p) * scene.body->velocity(p);
   return sum;
 }
 
@@ -116,9 +116,10 @@ TEST(soft_body, is_stable_at_any_step_and_stiffness) {
     std::vector<SoftMaterial> materials(3);
     for (SoftMaterial& m : materials) {
       m.return_stiffness = std::pow(10, random.uniform(-3, 12));
-      m.neighbour_stiffness = std::pow(10, random.uniform(-3, 12));
+      m.membrane_stiffness = std::pow(10, random.uniform(-3, 12));
+      m.membrane_damping = std::pow(10, random.uniform(-3, 6));
       m.damping_ratio = random.uniform(0.1, 2);
-      m.mass = std::pow(10, random.uniform(-3, 0));
+      m.areal_density = std::pow(10, random.uniform(-3, 0));
     }
     SoftScene scene(test::make_bumpy_ball(600), materials, 0.15, {});
     for (std::uint32_t p = 0; p < scene.count(); ++p)
@@ -202,10 +203,10 @@ TEST(soft_body, rides_with_the_pose) {
   SoftScene scene = make_tube_scene();
   const ModelPose start = scene.pose;
   SoftMaterial none;
-  none.return_stiffness = none.neighbour_stiffness = 0;
+  none.return_stiffness = none.membrane_stiffness = 0;
   none.damping_ratio = 0;
   ASSERT_TRUE(scene.body->change_material(0, none));
-  ASSERT_TRUE(scene.body->add_impulse(5, {0.001, 0, 0}));
+  ASSERT_TRUE(scene.body->add_impulse(5, {0.1 * scene.body->mass(5), 0, 0}));
   scene.run(0.5);
   const Vec3d before = scene.body->displacement(5);
   ASSERT_NEAR(before.x(), 0.05, 1e-6);
@@ -305,7 +306,7 @@ TEST(soft_body, distant_particles_stay_asleep) {
 TEST(soft_body, a_front_wakes_neighbour_after_neighbour) {
   SoftMaterial material;
   material.return_stiffness = 20;
-  material.neighbour_stiffness = 3000;
+  material.membrane_stiffness = 300;
   SoftScene scene(test::make_tube(60, 16, 6), material, 0.08);
   const std::uint32_t held = scene.nearest({0.5, 1, 0});
   ASSERT_TRUE(scene.body->hold(held, scene.body->place(held) + Vec3d(0.5, 0, 0)));
@@ -358,7 +359,7 @@ TEST(soft_body, other_materials_move_otherwise) {
   SoftMaterial soft, hard;
   soft.return_stiffness = 100;
   hard.return_stiffness = 10000;
-  soft.neighbour_stiffness = hard.neighbour_stiffness = 0;
+  soft.membrane_stiffness = hard.membrane_stiffness = 0;
   SoftScene scene(test::make_tube(40, 12, 4), {soft, hard}, 0.1, {});
   ASSERT_TRUE(scene.body->set_material(3, 1));
   EXPECT_EQ(scene.body->material_of(3), 1u);
@@ -600,12 +601,13 @@ TEST(material, is_checked_and_found) {
             StatusCode::non_finite_value);
   EXPECT_EQ(fault([](SoftMaterial& m) { m.return_stiffness = 2e12; }).code(),
             StatusCode::invalid_argument);
-  EXPECT_EQ(fault([](SoftMaterial& m) { m.mass = 0; }).code(), StatusCode::invalid_argument);
+  EXPECT_EQ(fault([](SoftMaterial& m) { m.areal_density = 0; }).code(),
+            StatusCode::invalid_argument);
   EXPECT_EQ(fault([](SoftMaterial& m) { m.range = 0; }).code(), StatusCode::invalid_argument);
   EXPECT_EQ(fault([](SoftMaterial& m) { m.stretch_limit = 0.5; }).code(),
             StatusCode::invalid_argument);
   EXPECT_EQ(fault([](SoftMaterial& m) { m.strength = 1; }).code(), StatusCode::invalid_argument);
-  EXPECT_EQ(fault([](SoftMaterial& m) { m.neighbour_stiffness = -1; }).code(),
+  EXPECT_EQ(fault([](SoftMaterial& m) { m.membrane_stiffness = -1; }).code(),
             StatusCode::invalid_argument);
 }
 

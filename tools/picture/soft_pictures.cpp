@@ -69,7 +69,7 @@ void draw_gap(const std::string& folder) {
 void draw_running(const std::string& folder) {
   SoftMaterial tough;
   tough.return_stiffness = 100;
-  tough.neighbour_stiffness = 1600;
+  tough.membrane_stiffness = 8;
   tough.damping_ratio = 1.5;
   SoftMaterial weak = tough;
   weak.strength = 1.8;

@@ -25,8 +25,8 @@ struct BulletBodyOptions {
   /// Damping ratio of every spring, in [0, 10]: 0 swings for ever, 1 returns without swinging.
   double damping_ratio = 0.3;
   /// The same between neighbours, for the difference of their displacements, times
-  /// ParticleSet::coupling(); 1/s^2; >= 0.
-  double neighbour_stiffness = 400.0;
+  /// ParticleNeighbour::coupling; 1/s^2; >= 0.
+  double neighbour_stiffness = 100.0;
   double mass = 0.05;     ///< Kilograms per particle; > 0. It matters in contacts.
   double radius = 0.3;    ///< Radius of a particle's sphere, as a fraction of its range; > 0.
   double friction = 0.5;  ///< Of the spheres; >= 0.

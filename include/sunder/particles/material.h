@@ -9,17 +9,23 @@
 
 namespace sunder {
 
-/// The mechanical properties of a particle. Stiffnesses are per mass: newtons per metre, for one
-/// kilogram.
+/// The mechanical properties of tissue: a membrane on an elastic foundation, which returns it to
+/// the pose. They are independent of how the surface is divided into particles. The displacement u
+/// of the tissue obeys
+///
+///   rho u'' = S div grad u + D div grad u' - rho (k u + 2 zeta sqrt(k) u') + force per area
+///
+/// so a point force or a wound moves the tissue within a distance of about sqrt(S / (rho k)).
 struct SoftMaterial {
   std::string name;
-  /// Stiffness of the spring that returns a particle to its rest position, 1/s^2. Its square root
-  /// is the frequency in radians per second. [0, 1e12].
+  /// k: stiffness of the foundation, by mass, 1/s^2. Its square root is the frequency in radians
+  /// per second. [0, 1e12].
   double return_stiffness = 400.0;
-  /// Damping ratio of that spring and of the springs to neighbours; 1 is critical. [0, 1e6].
+  /// zeta: damping ratio of the foundation; 1 is critical. [0, 1e6].
   double damping_ratio = 0.7;
-  double neighbour_stiffness = 400.0;  ///< 1/s^2, times ParticleSet::coupling(). [0, 1e12].
-  double mass = 0.01;                  ///< Kilograms per particle. [1e-12, 1e12].
+  double membrane_stiffness = 4.0;  ///< S, N/m. [0, 1e12].
+  double membrane_damping = 0.25;   ///< D, N s/m. [0, 1e12].
+  double areal_density = 0.4;       ///< rho, kg/m^2: density times thickness. [1e-12, 1e12].
   /// Suggested DecompositionOptions::range, a fraction of the diagonal. (0, 1].
   double range = 0.1;
   /// Limit for the distance of two neighbours, relative to rest; >= 1, or 0: none.
@@ -34,7 +40,8 @@ struct SoftMaterial {
 ///         Thread-safe.
 [[nodiscard]] SUNDER_API Status validate_material(const SoftMaterial& material);
 
-/// Presets: "skin", "fat", "muscle", "rubber", "sponge", "jelly". Thread-safe.
+/// Presets, for models in metres: "skin", "fat", "muscle", "rubber", "sponge", "jelly".
+/// Thread-safe.
 [[nodiscard]] SUNDER_API std::span<const SoftMaterial> material_presets();
 
 /// A preset by its name. @return not_found. Thread-safe.

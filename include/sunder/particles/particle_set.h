@@ -43,11 +43,16 @@ struct ParticleMembership {
                        ///< particle's range; in [0, 1).
 };
 
-/// A particle that shares points with another one and is coupled to it.
+/// A particle whose cell borders on that of another one, and that is coupled to it.
 struct ParticleNeighbour {
   std::uint32_t particle = 0;
-  std::uint32_t points = 0;  ///< Number of points with influences of both.
-  double shared = 0.0;       ///< Sum over those points of the product of the two weights.
+  std::uint32_t edges = 0;  ///< Number of edges of faces from one cell to the other.
+  /// The force between the two in a membrane of 1 N/m, per metre by which their displacements
+  /// differ: the length of their common border by the distance of their seeds. >= 0.
+  double coupling = 0.0;
+  /// The conormal of the common border, towards the neighbour, times the border's length, metres.
+  Vec3d across = Vec3d::Zero();
+  Vec3d middles = Vec3d::Zero();  ///< Sum of the middles of these edges.
 };
 
 /// The position and linear map of a particle by the pose alone.
@@ -131,11 +136,11 @@ class SUNDER_API ParticleSet {
   /// out of memory.
   [[nodiscard]] Result<std::vector<std::uint32_t>> members(std::uint32_t particle) const;
   [[nodiscard]] std::uint32_t member_count(std::uint32_t particle) const;
-  /// Particles that share points with it, ascending.
+  /// Particles whose cells border on its own, ascending.
   [[nodiscard]] std::span<const ParticleNeighbour> neighbours(std::uint32_t particle) const;
-  /// The coupling of two neighbours: `shared` divided by the smaller of their sums of weights; in
-  /// [0, 1].
-  [[nodiscard]] double coupling(std::uint32_t particle, const ParticleNeighbour& neighbour) const;
+  /// Area of its cell in the decomposition's pose, square metres: a third of each face around its
+  /// points, without walls and caps. 0 for a particle to whose seed no point is nearest.
+  [[nodiscard]] double area(std::uint32_t particle) const;
   /// For a particle created by a tear: the influences on its seed before the tear, which determine
   /// its displacement and velocity. Weights are all 0 for a particle of the decomposition.
   [[nodiscard]] const ParticleInfluences& parents(std::uint32_t particle) const;
@@ -146,6 +151,9 @@ class SUNDER_API ParticleSet {
   [[nodiscard]] std::span<const ParticleMembership> memberships(std::uint32_t point) const;
   /// Per point.
   [[nodiscard]] std::span<const ParticleInfluences> influences() const;
+  /// Per point: the particle in whose cell it is, which is the one with the nearest seed; kNone if
+  /// it belongs to none.
+  [[nodiscard]] std::span<const std::uint32_t> owners() const;
   /// Per point: gradients of its influences' weights along the surface, in the decomposition's
   /// pose; for normals, see VertexDisplacements. Empty if out of memory. Valid until the next call
   /// that changes the set. O(points) in the first call, then O(points changed since).

@@ -67,7 +67,8 @@ struct PointMotion {
 };
 
 /// The motion of a ParticleSet: each particle has a displacement and a velocity relative to its
-/// rest. A damped spring pulls it to its rest, and its neighbours pull at it. The return spring is
+/// rest. A damped spring pulls it to its rest, and its neighbours pull at it: the finite volumes of
+/// the membrane that SoftMaterial describes. The return spring is
 /// integrated in closed form, neighbours and holds implicitly, so any step and any stiffness is
 /// stable. Quiet particles sleep: they keep their displacement and cost nothing.
 ///
@@ -99,6 +100,9 @@ class SUNDER_API SoftBody {
   Status change_material(std::uint32_t material, const SoftMaterial& to);
   [[nodiscard]] std::uint32_t material_of(std::uint32_t particle) const;
   [[nodiscard]] std::span<const SoftMaterial> materials() const;
+  /// Kilograms: the areal density of its material times ParticleSet::area(), or times a hundredth
+  /// of its squared range if its cell is smaller.
+  [[nodiscard]] double mass(std::uint32_t particle) const;
 
   // ---- Forces.
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <set>
@@ -21,42 +22,78 @@ namespace {
 
 using tear::Surface;
 
-std::uint32_t count_of(const ParticleInfluences& influences) {
-  std::uint32_t count = 0;
-  while (count < 4 && influences.weights[count] > 0) ++count;
-  return count;
-}
+/// The common border of two cells.
+struct Border {
+  std::uint32_t edges = 0;
+  Vec3d across = Vec3d::Zero(), middles = Vec3d::Zero();
+  double size = 0;  ///< Sum of the lengths of the parts and edges.
+};
 
-/// The sums of particles, computed from memberships and influences alone.
+/// The sums of particles, computed from memberships, the cells of points, and the surface.
 struct Sums {
   std::vector<std::vector<std::uint32_t>> members;  ///< Ascending.
-  std::vector<double> weights;
-  std::vector<std::map<std::uint32_t, ParticleNeighbour>> neighbours;
+  std::vector<double> areas;
+  std::vector<std::map<std::uint32_t, Border>> borders;
 
-  Sums(const ParticleSet& set)
+  Sums(const TornModel& model, const ParticleSet& set)
       : members(set.particle_count()),
-        weights(set.particle_count(), 0.0),
-        neighbours(set.particle_count()) {
-    for (std::uint32_t point = 0; point < set.point_count(); ++point) {
+        areas(set.particle_count(), 0.0),
+        borders(set.particle_count()) {
+    for (std::uint32_t point = 0; point < set.point_count(); ++point)
       for (const ParticleMembership& membership : set.memberships(point))
         if (membership.particle < set.particle_count())
           members[membership.particle].push_back(point);
-      const ParticleInfluences& influences = set.influences()[point];
-      const std::uint32_t count = count_of(influences);
-      for (std::uint32_t i = 0; i < count; ++i) {
-        if (influences.particles[i] >= set.particle_count()) continue;
-        weights[influences.particles[i]] += double{influences.weights[i]};
-        for (std::uint32_t j = 0; j < count; ++j) {
-          if (i == j) continue;
-          ParticleNeighbour& neighbour =
-              neighbours[influences.particles[i]][influences.particles[j]];
-          ++neighbour.points;
-          neighbour.shared += double{influences.weights[i]} * double{influences.weights[j]};
-        }
+    const Surface& surface = model.surface();
+    for (std::uint32_t t = 0; t < surface.triangle_count(); ++t) {
+      const tear::TriangleRef of = surface.triangle(t);
+      const std::size_t of_source = model.source().meshes[of.mesh].triangles.size();
+      if (surface.has_repeated_point(t) || of.source_triangle >= of_source) continue;
+      add_face(set, &surface.corner_point[std::size_t{3} * t]);
+    }
+  }
+
+ private:
+  void add_face(const ParticleSet& set, const std::uint32_t* points) {
+    const auto at = [&](std::size_t k) {
+      return Vec3d(set.positions()[points[k % 3]].cast<double>());
+    };
+    const auto owner = [&](std::size_t k) { return set.owners()[points[k % 3]]; };
+    const double twice = (at(1) - at(0)).cross(at(2) - at(0)).norm();
+    double longest = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (owner(k) < areas.size()) areas[owner(k)] += twice / 6;
+      longest = std::max(longest, (at(k + 1) - at(k)).squaredNorm());
+    }
+    if (!(twice > 1e-6 * longest)) return;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (owner(k) == owner(k + 1) || std::max(owner(k), owner(k + 1)) >= areas.size()) continue;
+      const Vec3d a = at(k) - at(k + 2), b = at(k + 1) - at(k + 2);
+      const double angle = std::atan2(a.cross(b).norm(), a.dot(b));
+      const Vec3d across = 0.5 / std::tan(angle) * (at(k + 1) - at(k));
+      for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
+        Border& border = borders[owner(k + side)][owner(k + 1 - side)];
+        ++border.edges;
+        border.across += side == 0 ? across : Vec3d(-across);
+        border.middles += 0.5 * (at(k) + at(k + 1));
+        border.size += across.norm() + (at(k + 1) - at(k)).norm();
       }
     }
   }
 };
+
+/// Each point is in the cell of the particle whose seed is nearest.
+void check_owner(const ParticleSet& set, std::uint32_t point, std::vector<std::string>& faults) {
+  const std::uint32_t owner = set.owners()[point];
+  double nearest = std::numeric_limits<double>::infinity(), own = nearest;
+  for (const ParticleMembership& of : set.memberships(point)) {
+    const double distance = double{of.reach} * set.range(of.particle);
+    nearest = std::min(nearest, distance);
+    if (of.particle == owner) own = distance;
+  }
+  if (set.memberships(point).empty() ? owner != kNone : !(own <= nearest * (1 + 1e-6)))
+    faults.push_back(say("point ", point, " is in the cell of particle ", owner, " at ", own,
+                         ", the nearest is at ", nearest));
+}
 
 void check_point(const ParticleSet& set, std::uint32_t point, bool has_face,
                  std::vector<std::string>& faults) {
@@ -108,6 +145,25 @@ void check_point(const ParticleSet& set, std::uint32_t point, bool has_face,
                          memberships.size(), " memberships"));
 }
 
+void check_border(const ParticleSet& set, std::uint32_t p, const ParticleNeighbour& neighbour,
+                  const Border& sum, std::vector<std::string>& faults) {
+  const double range = set.range(p), tolerance = 1e-7 * (sum.size + range);
+  const auto at = [&](std::uint32_t of) {
+    return Vec3d(set.positions()[set.seed(of)].cast<double>());
+  };
+  const Vec3d here = at(p), between = at(neighbour.particle) - here;
+  if (neighbour.edges != sum.edges || !((neighbour.across - sum.across).norm() <= tolerance) ||
+      !((neighbour.middles - sum.middles).norm() <= 1e-7 * sum.edges * (here.norm() + range)))
+    faults.push_back(say("the border of particles ", p, " and ", neighbour.particle, " has ",
+                         neighbour.edges, " edges and ", neighbour.across.transpose(), ", not ",
+                         sum.edges, " and ", sum.across.transpose()));
+  // Not more than the border's length by the straight path, nor less than nothing.
+  const double most = neighbour.across.norm() / between.norm();
+  if (!(neighbour.coupling >= 0 && neighbour.coupling <= most * (1 + 1e-9)))
+    faults.push_back(say("the coupling of particles ", p, " and ", neighbour.particle, " is ",
+                         neighbour.coupling, ", more than ", most));
+}
+
 void check_particle(const ParticleSet& set, std::uint32_t p, const Sums& sums,
                     std::vector<std::string>& faults) {
   if (set.member_count(p) != sums.members[p].size())
@@ -116,33 +172,25 @@ void check_particle(const ParticleSet& set, std::uint32_t p, const Sums& sums,
   if (set.members(p).value() != sums.members[p])
     faults.push_back(say("members of particle ", p, " are others than its points say"));
   if (!(set.range(p) > 0)) faults.push_back(say("the range of particle ", p, " is ", set.range(p)));
+  if (std::abs(set.area(p) - sums.areas[p]) > 1e-9 * (sums.areas[p] + set.range(p) * set.range(p)))
+    faults.push_back(
+        say("the cell of particle ", p, " has an area of ", set.area(p), ", not ", sums.areas[p]));
   const auto neighbours = set.neighbours(p);
-  if (neighbours.size() != sums.neighbours[p].size())
-    faults.push_back(say("particle ", p, " has ", neighbours.size(), " neighbours of ",
-                         sums.neighbours[p].size()));
+  if (neighbours.size() != sums.borders[p].size())
+    faults.push_back(
+        say("particle ", p, " has ", neighbours.size(), " neighbours of ", sums.borders[p].size()));
   std::uint32_t next = 0;
   for (const ParticleNeighbour& neighbour : neighbours) {
     if (neighbour.particle < next)
       faults.push_back(say("neighbours of particle ", p, " do not ascend"));
     next = neighbour.particle + 1;
-    const auto expected = sums.neighbours[p].find(neighbour.particle);
-    if (expected == sums.neighbours[p].end()) {
+    const auto expected = sums.borders[p].find(neighbour.particle);
+    if (expected == sums.borders[p].end()) {
       faults.push_back(
-          say("particle ", p, " has nothing in common with its neighbour ", neighbour.particle));
+          say("the cell of particle ", p, " does not border on that of ", neighbour.particle));
       continue;
     }
-    const ParticleNeighbour& sum = expected->second;
-    if (neighbour.points != sum.points ||
-        std::abs(neighbour.shared - sum.shared) > 1e-9 * (1 + sum.points))
-      faults.push_back(say("particles ", p, " and ", neighbour.particle, " share ",
-                           neighbour.shared, " at ", neighbour.points, " points, not ", sum.shared,
-                           " at ", sum.points));
-    const double least = std::min(sums.weights[p], sums.weights[neighbour.particle]);
-    const double coupling = set.coupling(p, neighbour);
-    if (!(coupling >= 0 && coupling <= 1) ||
-        std::abs(coupling - std::min(1.0, sum.shared / least)) > 1e-6 * (1 + 1 / least))
-      faults.push_back(say("the coupling of particles ", p, " and ", neighbour.particle, " is ",
-                           coupling, ", not ", sum.shared / least));
+    check_border(set, p, neighbour, expected->second, faults);
   }
 }
 
@@ -246,11 +294,14 @@ std::string difference(const ParticleState::Particle& a, const ParticleState::Pa
     return say("neighbours: ", a.neighbours.size(), " and ", b.neighbours.size());
   for (std::size_t i = 0; i < a.neighbours.size(); ++i) {
     const ParticleNeighbour &x = a.neighbours[i], &y = b.neighbours[i];
-    if (x.particle != y.particle || x.points != y.points) return say("neighbour ", i);
-    if (sameness == Sameness::bits ? x.shared != y.shared || a.couplings[i] != b.couplings[i]
-                                   : !are_near(x.shared, y.shared))
-      return say("shared with neighbour ", i, ": ", x.shared, " and ", y.shared);
+    if (x.particle != y.particle || x.edges != y.edges) return say("neighbour ", i);
+    if (sameness == Sameness::bits
+            ? x.coupling != y.coupling || x.across != y.across || x.middles != y.middles
+            : !are_near(x.coupling, y.coupling))
+      return say("coupling with neighbour ", i, ": ", x.coupling, " and ", y.coupling);
   }
+  if (sameness == Sameness::bits ? a.area != b.area : !are_near(a.area, b.area))
+    return say("area ", a.area, " and ", b.area);
   const bool rests_alike = sameness == Sameness::bits
                                ? a.rest.place == b.rest.place && a.rest.linear == b.rest.linear
                                : (a.rest.place - b.rest.place).norm() < 1e-9 &&
@@ -265,11 +316,13 @@ std::vector<std::string> broken_particles(const TornModel& model, const Particle
   std::vector<std::string> faults;
   const Surface& surface = model.surface();
   if (set.point_count() != model.point_count() || set.influences().size() != model.point_count() ||
-      set.positions().size() != model.point_count())
+      set.positions().size() != model.point_count() || set.owners().size() != model.point_count())
     return {say(set.point_count(), " points of ", model.point_count())};
-  for (std::uint32_t point = 0; point < set.point_count(); ++point)
+  for (std::uint32_t point = 0; point < set.point_count(); ++point) {
     check_point(set, point, surface.point_corner[point] != kNone, faults);
-  const Sums sums(set);
+    check_owner(set, point, faults);
+  }
+  const Sums sums(model, set);
   std::set<std::uint64_t> serials;
   for (std::uint32_t p = 0; p < set.particle_count(); ++p) {
     check_particle(set, p, sums, faults);
@@ -460,14 +513,14 @@ ParticleState state_of(const TornModel& model, const ParticleSet& set, const Mod
     particle.member_count = set.member_count(p);
     particle.members = set.members(p).value();
     particle.neighbours.assign(set.neighbours(p).begin(), set.neighbours(p).end());
-    for (const ParticleNeighbour& neighbour : particle.neighbours)
-      particle.couplings.push_back(set.coupling(p, neighbour));
+    particle.area = set.area(p);
     particle.parents = set.parents(p);
     particle.rest = rest[p];
   }
   for (std::uint32_t point = 0; point < set.point_count(); ++point)
     state.memberships.emplace_back(set.memberships(point).begin(), set.memberships(point).end());
   state.influences.assign(set.influences().begin(), set.influences().end());
+  state.owners.assign(set.owners().begin(), set.owners().end());
   for (std::uint32_t m = 0; m < model.character().meshes.size(); ++m)
     state.vertex_points.emplace_back(set.vertex_points(m).begin(), set.vertex_points(m).end());
   state.positions.assign(set.positions().begin(), set.positions().end());
@@ -484,6 +537,7 @@ std::string difference(const ParticleState& a, const ParticleState& b, Sameness 
     if (!have_same_bits(a.memberships[point], b.memberships[point]))
       return say("memberships of point ", point);
     if (a.influences[point] != b.influences[point]) return say("influences of point ", point);
+    if (a.owners[point] != b.owners[point]) return say("cell of point ", point);
   }
   for (std::size_t p = 0; p < a.particles.size(); ++p)
     if (const std::string found = difference(a.particles[p], b.particles[p], sameness);

@@ -11,9 +11,9 @@ namespace sunder::test {
 /// per fault. All are computed from the public data of ParticleSet and TornModel, not from the
 /// set's own sums.
 
-/// Memberships, influences, members, neighbours and vertices agree with one another and with the
-/// model; every point of a face belongs to a particle, every other point to none; weights are in
-/// [0, 1], descend, and sum to one; serial numbers of particles are unique.
+/// Memberships, influences, cells, members, neighbours and vertices agree with one another and with
+/// the model; every point of a face belongs to a particle, every other point to none; weights are
+/// in [0, 1], descend, and sum to one; serial numbers of particles are unique.
 std::vector<std::string> broken_particles(const TornModel& model, const ParticleSet& set);
 
 /// No particle has points of both lips, or of both sides of a gap, of one operation.
@@ -54,13 +54,14 @@ struct ParticleState {
     double range = 0.0;
     std::vector<std::uint32_t> members;
     std::vector<ParticleNeighbour> neighbours;
-    std::vector<double> couplings;
+    double area = 0.0;
     ParticleInfluences parents;
     ParticleRest rest;  ///< In some pose.
   };
   std::vector<Particle> particles;
   std::vector<std::vector<ParticleMembership>> memberships;
   std::vector<ParticleInfluences> influences;
+  std::vector<std::uint32_t> owners;
   std::vector<std::vector<std::uint32_t>> vertex_points;
   std::vector<Vec3f> positions;
   std::vector<LipEdge> lips;
