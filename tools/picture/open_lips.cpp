@@ -16,7 +16,7 @@ namespace {
 /// within these fractions of the model's diagonal.
 constexpr double kRangeOfLength = 0.25, kLeastRange = 0.02, kMostRange = 0.075;
 /// How far the widest wound gapes: a share of its length, and of the body's thickness below it.
-constexpr double kGapOfLength = 0.14, kGapOfThickness = 0.5;
+constexpr double kGapOfLength = 0.07, kGapOfThickness = 0.5;
 /// Tension is lowered by this factor while a larger share of the moved surface than this is folded.
 constexpr double kLess = 0.75, kFolded = 0.004;
 constexpr double kFirstTension = 1.0;  ///< Newtons per metre, to begin the search with.
