@@ -13,9 +13,10 @@
 
 namespace sunder::tear {
 
-/// Which side of a plane the posed vertices of a skin are on, in float. A bone turns a bind
-/// position into a distance by four numbers, so a side costs a fraction of a position. It agrees
-/// with PlaneSide::contains() of the position wherever it is known.
+/// Tells on which side of a plane the posed vertices of a skin lie. It computes their distances
+/// from the plane in float: per bone, four numbers turn a bind position into a distance, which
+/// costs a fraction of posing the vertex. Where rounding cannot change the side, the answer is that
+/// of PlaneSide::contains() for the posed position.
 class PlaneDistances {
  public:
   /// Where a vertex may be.
@@ -47,7 +48,8 @@ class PlaneDistances {
   ScratchVector<std::array<float, 4>> rows_;  ///< Per slot.
   float steepest_ = 0, farthest_ = 0;         ///< Bounds of the terms of a distance.
   float slack_ = 0;  ///< Error per influence, because weights do not sum to one exactly.
-  /// Of the numbers in double, and `on_plane`; infinite if float cannot hold them.
+  /// Error of the posed position in double, plus `on_plane`. Infinite if float cannot hold the
+  /// distances.
   float rounding_ = 0;
 };
 

@@ -7,7 +7,7 @@
 
 namespace sunder::test {
 
-/// What a cut by a plane must leave on one side of it.
+/// The volume and the area that a body must have left on one side of a plane that cuts it.
 struct ExactSide {
   double volume = 0;
   /// Without and with the section. They differ if the body has faces that lie in the plane within
