@@ -142,14 +142,13 @@ Result<ImportedGlb> run_helper(const ModelFile& model, files::AllowedFiles& allo
     bytes += more;
     raise_memory_limit(process->id(), import_memory_of(bytes, options) - before);
   };
-  Conversation conversation;
-  conversation.outcome = Outcome::wrong_helper;
   Socket& socket = process->socket();
   const Job job = job_of(model, options);
-  // If these fail, the helper has ended, which receiving notices too.
-  if (socket.send_value(job, model.file.descriptor.value()) == Transfer::complete &&
-      socket.send(std::as_bytes(std::span(model.name))) == Transfer::complete)
-    conversation = serve(socket, allowed, options.maximum_bytes, file_opened);
+  // If these fail, the helper has ended. It may have told the cause before, without waiting for all
+  // of the job, so what it sent is read in any case.
+  if (socket.send_value(job, model.file.descriptor.value()) == Transfer::complete)
+    (void)socket.send(std::as_bytes(std::span(model.name)));
+  Conversation conversation = serve(socket, allowed, options.maximum_bytes, file_opened);
   const bool must_stop = conversation.outcome == Outcome::timed_out ||
                          conversation.outcome == Outcome::too_large ||
                          conversation.outcome == Outcome::insatiable;
