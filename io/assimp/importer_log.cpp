@@ -5,6 +5,7 @@
 #include <cctype>
 #include <mutex>
 #include <string_view>
+#include <utility>
 
 #include <assimp/DefaultLogger.hpp>
 #include <assimp/LogStream.hpp>
@@ -35,7 +36,8 @@ bool tells_of_loss(std::string text) {
 
 }  // namespace
 
-class ImporterLog::Stream : public Assimp::LogStream {
+/// Keeps the messages of one import.
+class ImporterLog::Collector : public Assimp::LogStream {
  public:
   void write(const char* text) override {
     if (messages.size() >= kMostMessages) return;
@@ -50,25 +52,55 @@ class ImporterLog::Stream : public Assimp::LogStream {
       messages.push_back(valid_utf8(message));
   }
 
-  std::lock_guard<std::mutex> lock{log_mutex()};
   std::vector<std::string> messages;
-  bool has_own_logger = false;
+  /// Held while the collector is attached to the program's logger, which sends it the messages of
+  /// all threads.
+  std::unique_lock<std::mutex> attached;
 };
 
-ImporterLog::ImporterLog() : stream_(new Stream) {
+/// A logger that gives each thread's messages to the collector of that thread. It is never
+/// removed, because importers in other threads may be using it.
+class ImporterLog::ThreadLogger : public Assimp::Logger {
+ public:
+  static Collector*& collector() {
+    thread_local Collector* of_thread = nullptr;
+    return of_thread;
+  }
+
+  bool attachStream(Assimp::LogStream* /*stream*/, unsigned /*severity*/) override { return false; }
+  bool detachStream(Assimp::LogStream* /*stream*/, unsigned /*severity*/) override { return false; }
+
+ private:
+  void OnDebug(const char* /*message*/) override {}
+  void OnVerboseDebug(const char* /*message*/) override {}
+  void OnInfo(const char* /*message*/) override {}
+  void OnWarn(const char* message) override {
+    if (collector() != nullptr) collector()->write(message);
+  }
+  void OnError(const char* message) override { OnWarn(message); }
+};
+
+ImporterLog::ImporterLog() : collector_(new Collector) {
+  std::unique_lock<std::mutex> lock(log_mutex());
+  if (Assimp::DefaultLogger::isNullLogger()) Assimp::DefaultLogger::set(new ThreadLogger);
+  if (dynamic_cast<ThreadLogger*>(Assimp::DefaultLogger::get()) != nullptr) {
+    ThreadLogger::collector() = collector_;
+    return;
+  }
   // A program that logs assimp itself keeps its logger.
-  stream_->has_own_logger = Assimp::DefaultLogger::isNullLogger();
-  if (stream_->has_own_logger) Assimp::DefaultLogger::create("", Assimp::Logger::NORMAL, 0);
-  Assimp::DefaultLogger::get()->attachStream(stream_, kSeverities);
+  collector_->attached = std::move(lock);
+  Assimp::DefaultLogger::get()->attachStream(collector_, kSeverities);
 }
 
 ImporterLog::~ImporterLog() {
-  Assimp::DefaultLogger::get()->detachStream(stream_, kSeverities);
-  if (stream_->has_own_logger) Assimp::DefaultLogger::kill();
-  delete stream_;
+  if (collector_->attached.owns_lock())
+    Assimp::DefaultLogger::get()->detachStream(collector_, kSeverities);
+  else
+    ThreadLogger::collector() = nullptr;
+  delete collector_;
 }
 
-const std::vector<std::string>& ImporterLog::messages() const { return stream_->messages; }
+const std::vector<std::string>& ImporterLog::messages() const { return collector_->messages; }
 
 void add_notes(const std::vector<std::string>& messages, Notes& notes) {
   for (const std::string& message : messages) {

@@ -7,9 +7,10 @@
 
 namespace sunder::assimp_import {
 
-/// Collects the warnings and errors that assimp's importers log during its lifetime. Importers
-/// often drop or replace what a file says and tell only the log. Objects exclude each other,
-/// because the log is that of the process.
+/// Collects the warnings and errors that assimp's importers log in this thread during its lifetime;
+/// one object per thread at a time. Importers often drop or replace what a file says and tell only
+/// the log. If the program has set a logger of its own, objects exclude each other, because that
+/// logger mixes the messages of all threads.
 class ImporterLog {
  public:
   ImporterLog();
@@ -21,8 +22,9 @@ class ImporterLog {
   [[nodiscard]] const std::vector<std::string>& messages() const;
 
  private:
-  class Stream;
-  Stream* stream_;
+  class Collector;
+  class ThreadLogger;
+  Collector* collector_;
 };
 
 /// Adds the messages as notes: `dropped` where they name an index or a count that does not fit, so
