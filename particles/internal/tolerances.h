@@ -28,6 +28,9 @@ static_assert(kBentPath > 2 / kSeedSpacingReach);
 /// A face whose doubled area is below this fraction of its longest squared edge has no reliable
 /// angles.
 inline constexpr double kNeedleFraction = 1e-6;
+/// The least part of a coupling that is left where the reach of the tissue, sqrt(S / (rho k)), is
+/// shorter than half of the distance between seeds.
+inline constexpr double kLeastCoupledPart = 0.1;
 /// Least area of a cell as a part of the squared range, so that every particle has a mass: also
 /// those of walls and caps, and those to whose seed no point is nearest.
 inline constexpr double kLeastCellArea = 0.01;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/internal/ordered.h"
 #include "particles/internal/tolerances.h"
 
 namespace sunder::particles {
@@ -11,12 +12,25 @@ namespace {
 
 double harmonic_mean(double a, double b) { return a + b > 0 ? 2 * a * (b / (a + b)) : 0.0; }
 
+/// The stiffness of the foundation per area, N/m^3.
+double foundation_of(const SoftMaterial& material) {
+  return material.areal_density * material.return_stiffness;
+}
+
 }  // namespace
 
-Spring spring_between(const SoftMaterial& a, const SoftMaterial& b, double coupling) {
+Spring spring_between(const SoftMaterial& a, const SoftMaterial& b, double coupling,
+                      double squared_distance) {
+  const double stiffness = harmonic_mean(a.membrane_stiffness, b.membrane_stiffness);
+  const double damping = harmonic_mean(a.membrane_damping, b.membrane_damping);
+  const double foundation = 0.5 * (foundation_of(a) + foundation_of(b));
+  // A quarter of what the foundation resists between the two seeds.
+  const double part = stiffness > 0 ? std::max(kLeastCoupledPart,
+                                               1 - 0.25 * foundation * squared_distance / stiffness)
+                                    : 0.0;
   Spring spring;
-  spring.stiffness = coupling * harmonic_mean(a.membrane_stiffness, b.membrane_stiffness);
-  spring.damping = coupling * harmonic_mean(a.membrane_damping, b.membrane_damping);
+  spring.stiffness = coupling * part * stiffness;
+  spring.damping = coupling * (stiffness > 0 ? part : 1.0) * damping;
   spring.stretch_limit = a.stretch_limit == 0   ? b.stretch_limit
                          : b.stretch_limit == 0 ? a.stretch_limit
                                                 : std::min(a.stretch_limit, b.stretch_limit);
@@ -49,11 +63,14 @@ void connect(const ParticleSet& set, std::span<const SoftMaterial> materials,
   graph.springs.clear();
   graph.first.assign(1, 0);
   graph.masses.clear();
+  const auto seed_of = [&](Index p) { return set.positions()[set.seed(p)]; };
   for (Index p = 0; p < set.particle_count(); ++p) {
     for (const ParticleNeighbour& neighbour : set.neighbours(p)) {
+      const double squared_distance =
+          squared_norm(Vec3d((seed_of(neighbour.particle) - seed_of(p)).cast<double>()));
       Spring spring =
           spring_between(materials[material_of[p]], materials[material_of[neighbour.particle]],
-                         neighbour.coupling);
+                         neighbour.coupling, squared_distance);
       spring.other = neighbour.particle;
       graph.springs.push_back(spring);
     }

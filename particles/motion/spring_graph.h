@@ -44,7 +44,11 @@ void connect(const ParticleSet& set, std::span<const SoftMaterial> materials,
 /// Sets the frequencies of all springs from their stiffnesses and the masses.
 void set_frequencies(SpringGraph& graph);
 
-/// The spring of two materials, before its other end and its frequency are known.
-[[nodiscard]] Spring spring_between(const SoftMaterial& a, const SoftMaterial& b, double coupling);
+/// The spring of two materials, before its other end and its frequency are known. The foundation
+/// between two seeds acts at the seeds, which makes a coarse row of particles stiffer than the
+/// tissue: with stiffness S and foundation K, a row with the spacing h resists a force at its end
+/// by sqrt(S' K + (K h / 2)^2) instead of sqrt(S K). S' = S - K h^2 / 4 makes them equal.
+[[nodiscard]] Spring spring_between(const SoftMaterial& a, const SoftMaterial& b, double coupling,
+                                    double squared_distance);
 
 }  // namespace sunder::particles

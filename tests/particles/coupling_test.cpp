@@ -38,7 +38,7 @@ struct Network {
     const auto join = [&](Index a, Index b) {
       if (a == b) return;
       Spring spring = particles::spring_between(
-          materials[material_of[a]], materials[material_of[b]], random.uniform(0.05, 0.6));
+          materials[material_of[a]], materials[material_of[b]], random.uniform(0.05, 0.6), 0.0);
       spring.other = b;
       springs[a].push_back(spring);
       spring.other = a;
