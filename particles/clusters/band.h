@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "particles/clusters/structure.h"
 
 namespace sunder::particles {
@@ -16,15 +19,33 @@ struct LipChain {
     float to_tip = 0;  ///< Along the border to the nearer tip.
   };
   std::vector<Place> places;
-  float depth = 0;  ///< How far from the lip its band reaches.
+  float depth = 0;    ///< How far from the lip its band reaches.
+  float spacing = 0;  ///< Of its small particles near tips; 0: it gets none.
 
-  /// A particle that moves this lip alone. It reaches as far as the band is deep, and `half_width`
-  /// to either side along the lip.
+  struct End {
+    Index tip = kNone;    ///< One edge from the end; kNone: the chain ends elsewhere.
+    Index other = kNone;  ///< The chain of the other lip that ends there; kNone: none in the band.
+    float distance = 0;   ///< To the tip, along the border; infinite if none is near.
+  };
+  End front, back;
+
+  /// A particle that moves this lip alone.
   struct OfLip {
     Index particle = 0;
-    float along = 0, half_width = 0;
+    float along = 0;
+    /// To either side along the lip. A small one reaches as far into the surface, a large one as
+    /// far as the band is deep.
+    float half_width = 0;
+    bool is_small = false;
   };
   std::vector<OfLip> particles;
+
+  /// Whether small particles move the lip at a place, and how much: from 1 to 0 with the distance
+  /// from the tip. @param range  of the decomposition, metres.
+  [[nodiscard]] float fineness(const Place& place, float range) const {
+    if (!(spacing > 0)) return 0;
+    return std::isfinite(length) ? 1.0f : std::clamp(4 - 2 * place.to_tip / range, 0.0f, 1.0f);
+  }
 };
 
 /// Lips of a tear next to which particles still have to fade out.
@@ -48,6 +69,9 @@ struct Band {
   Index tear = 0;
   std::vector<Index> lips;  ///< The points from which the chains are found.
   bool is_begun = false;    ///< Whether the chains were found.
+  /// Whether the tear is complete. Lips of a stroke in progress have no small particles yet, which
+  /// would be in the way of the next ones.
+  bool is_final = false;
   std::vector<LipChain> chains;
   Index growing = kNone;  ///< After the band: the particle that the front grows.
   /// Members that the front did not reach, which the particle loses; the last first.

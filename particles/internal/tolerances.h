@@ -19,6 +19,26 @@ inline constexpr float kUncoveredReach = 0.97f;
 static_assert(kLipCoveredReach < kSeedSpacingReach && kSeedSpacingReach < kUncoveredReach &&
               kUncoveredReach < 1);
 
+// ---- Small particles next to a tip, in multiples of their spacing along the lip.
+
+/// Spacing of the particles of a lip near a tip, in ranges.
+inline constexpr float kLipSpacingRanges = 0.3f;
+/// A lip has at least this many particles between two tips, if the mesh is fine enough.
+inline constexpr float kLeastPerLip = 12;
+/// Least spacing, in mean lengths of the mesh's edges: fewer cannot show a smooth gap.
+inline constexpr float kLeastSpacingEdges = 2;
+/// Farther from a tip than this, the gap changes so little that large particles suffice.
+inline constexpr float kNearTipRanges = 2;
+/// Range of the last particle of a lip, next to the tip.
+inline constexpr float kTipRangeSpacings = 0.65f;
+/// A mesh so coarse that the spacing would be more than this has no small particles.
+inline constexpr float kMostSpacingRanges = 0.5f;
+/// Range of the other particles of a lip, and spacing and distance from the lip of those next to
+/// them. Found by trial: with these, gaps are nearest to those of finite elements.
+inline constexpr float kLipRangeSpacings = 1.3f, kRowSpacings = 1.3f, kRowDistanceSpacings = 0.86f;
+static_assert(kLipRangeSpacings > kRowDistanceSpacings,
+              "other particles fade out within the reach of those of the lip");
+
 // ---- Cells.
 
 /// Two seeds whose path across their border is longer than this multiple of their distance are on
@@ -41,8 +61,8 @@ inline constexpr double kLeastCellArea = 0.01;
 inline constexpr double kQuietRanges = 1e-4;
 inline constexpr double kAtRestRanges = 2e-4;
 inline constexpr double kFeltRanges = 5e-4;
-inline constexpr double kQuietBoundRanges = 3e-3;
-inline constexpr double kFeltBoundRanges = 5e-3;
+inline constexpr double kQuietBoundRanges = 6e-3;
+inline constexpr double kFeltBoundRanges = 9e-3;
 inline constexpr double kQuietRangesPerSecond = 1e-3;
 inline constexpr double kQuietSeconds = 0.5;
 static_assert(kQuietRanges < kAtRestRanges && kAtRestRanges < kFeltRanges,

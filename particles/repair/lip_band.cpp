@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "particles/internal/tolerances.h"
 #include "particles/repair/cover.h"
 #include "particles/repair/grow.h"
 #include "particles/repair/lip_chains.h"
 #include "particles/repair/lip_particles.h"
+#include "particles/repair/row_particles.h"
 
 namespace sunder::particles {
 namespace {
@@ -33,9 +35,11 @@ std::vector<Index> particles_beside(StructureEdit& edit, std::span<const Index> 
   return particles;
 }
 
-void visit(StructureEdit& edit, const LipChain& chain, const BandPoint& at) {
+void visit(StructureEdit& edit, std::span<const LipChain> chains, const LipChain& chain,
+           const BandPoint& at) {
   keep_to_own_side(edit, chain, at);
-  join_lip_particles(edit, chain, at);
+  join_lip_particles(edit, chains, chain, at);
+  fade_next_to_lip(edit, chain, at);
 }
 
 void spend(Index visited, Index& points) { points -= std::min(points, visited); }
@@ -50,7 +54,9 @@ void widen_front(StructureEdit& edit, Index& points) {
       const BesideLip beside = scratch.beside[point] = scratch.beside[from];
       const LipChain& chain = band.chains[beside.chain];
       if (distance < chain.depth) {
-        visit(edit, chain, {point, chain.places[beside.place], distance});
+        const BandPoint at = {point, chain.places[beside.place], distance};
+        visit(edit, band.chains, chain, at);
+        spend(cover_row(edit, chain, at), points);
         spend(cover(edit, point), points);  // thousands, where faces are small
       }
     }
@@ -84,13 +90,19 @@ void grow(StructureEdit& edit, Index& points) {
   band.is_grown = false;
 }
 
-/// Sets the depth of the band of each chain. @return the greatest depth.
-float set_depths(const Structure& structure, std::span<LipChain> chains) {
+/// Sets the depth of the band of each chain and the spacing of its small particles.
+/// @return the greatest depth.
+float set_sizes(const Structure& structure, bool is_final, std::span<LipChain> chains) {
   const auto range = static_cast<float>(structure.report.range);
+  const float edge = structure.character.edge_length;
   float deepest = 0;
   for (LipChain& chain : chains) {
-    chain.depth = std::min(range, std::max(0.5f * chain.length, structure.character.edge_length));
+    chain.depth = std::min(range, std::max(0.5f * chain.length, edge));
     deepest = std::max(deepest, chain.depth);
+    float spacing = std::max(kLeastSpacingEdges * edge,
+                             std::min(kLipSpacingRanges * range, chain.length / kLeastPerLip));
+    if (std::isfinite(chain.length)) spacing = chain.length / std::ceil(chain.length / spacing);
+    chain.spacing = is_final && spacing <= kMostSpacingRanges * range ? spacing : 0;
   }
   return deepest;
 }
@@ -118,17 +130,19 @@ Index begin_front(StructureEdit& edit) {
   std::erase_if(band.lips,
                 [&](Index point) { return edit.surface().point_corner[point] == kNone; });
   band.chains = find_lip_chains(edit.border(), structure, edit.tear(), band.lips);
-  const float depth = std::max(set_depths(structure, band.chains), structure.character.edge_length);
+  band.is_final |= structure.tears.done[edit.tear()].operation != 0;
+  const float depth =
+      std::max(set_sizes(structure, band.is_final, band.chains), structure.character.edge_length);
   scratch.band_front.begin(structure.points.count(), depth, structure.character.edge_length);
   Index lip_count = 0;
+  for (LipChain& chain : band.chains) make_lip_particles(edit, chain);
   for (Index c = 0; c < band.chains.size(); ++c) {
-    LipChain& chain = band.chains[c];
-    make_lip_particles(edit, chain);
+    const LipChain& chain = band.chains[c];
     for (Index p = 0; p < chain.places.size(); ++p) {
       const LipChain::Place& place = chain.places[p];
       scratch.beside[place.point] = {c, p};
       scratch.band_front.add(place.point, 0.0f);
-      visit(edit, chain, {place.point, place, 0.0f});
+      visit(edit, band.chains, chain, {place.point, place, 0.0f});
       ++lip_count;
     }
   }
@@ -153,7 +167,7 @@ PendingWork work_of(const Band& band, const Structure& structure) {
 /// Continues with the lips that an earlier call left, if there are any. Their band is begun by an
 /// edit of their tear.
 void take_pending_lips(const Structure& structure, Band& band) {
-  band.is_begun = false;
+  band.is_begun = band.is_final = false;
   band.lips.clear();
   if (band.pending.lips.empty()) return;
   PendingLips next = std::move(band.pending.lips.back());
@@ -204,9 +218,14 @@ void resume_work(Structure& structure, const std::shared_ptr<const PendingWork>&
   take_pending_lips(structure, *tears.band);
 }
 
-void begin_band(StructureEdit& edit, std::span<const Index> lips) {
+void begin_band(StructureEdit& edit, std::span<const Index> lips, bool is_final) {
   Structure& structure = edit.structure();
-  renew_band(structure, edit.tear()).lips.assign(lips.begin(), lips.end());
+  Band& band = renew_band(structure, edit.tear());
+  band.lips.assign(lips.begin(), lips.end());
+  band.is_final = is_final;
+  if (is_final)  // whose lips are all of the tear
+    std::erase_if(band.pending.lips,
+                  [&](const PendingLips& pending) { return pending.tear == edit.tear(); });
   Index points = begin_front(edit) + kPointsAtOnce;
   widen_front(edit, points);
   if (is_complete(structure)) structure.tears.band.reset();

@@ -7,8 +7,9 @@ namespace sunder::particles {
 
 /// Begins the band next to the lips of a tear, and handles the lips themselves. Work that is left
 /// is continued after it.
-/// @param lips  new points on the lips; at least one.
-void begin_band(StructureEdit& edit, std::span<const Index> lips);
+/// @param lips      points on the lips, at least one: the new ones, or all of a complete tear.
+/// @param is_final  whether the tear is complete.
+void begin_band(StructureEdit& edit, std::span<const Index> lips, bool is_final);
 
 /// Begins the band of a bore, which has no lips: particles that lost members to it are regrown.
 void begin_hole(StructureEdit& edit);

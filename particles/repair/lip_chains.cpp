@@ -29,11 +29,12 @@ class LipWalk {
     chain.side = side_ = points_.lip_points[start].side;
     const First first = walk_back(start);
     const float along = walk_forward(first.point, chain.places);
-    float before = kNever, after = kNever;
+    chain.front.distance = chain.back.distance = kNever;
     if (!first.is_circle) {
-      before = to_tip(first.point, false);
-      after = to_tip(chain.places.back().point, true);
+      chain.front = end_at(first.point, false);
+      chain.back = end_at(chain.places.back().point, true);
     }
+    const float before = chain.front.distance, after = chain.back.distance;
     chain.length = before + along + after;
     for (LipChain::Place& place : chain.places)
       place.to_tip = std::min(place.along + before, along - place.along + after);
@@ -88,18 +89,26 @@ class LipWalk {
     }
   }
 
-  /// The distance from an end of a lip to its tip: half of the way around the tip to the other lip.
-  [[nodiscard]] float to_tip(Index end, bool forward) const {
+  /// The end of a lip; `other` is the end point of the other lip. The distance to the tip is half
+  /// of the way around it to the other lip.
+  [[nodiscard]] LipChain::End end_at(Index end, bool forward) const {
     float walked = 0;
+    Index first = kNone;
     for (Index at = end; walked <= 2 * limit_;) {
       const Index following = step(at, forward);
       if (following == kNone || following == end) break;
       walked += between(at, following);
       const LipPoint& lip = points_.lip_points[following];
-      if (lip.tear == tear_ && lip.side != side_) return 0.5f * walked;
+      if (lip.tear == tear_ && lip.side != side_) {
+        // At a tip there is one point between the lips; elsewhere the way leads along other
+        // borders.
+        if (at != first) return {kNone, kNone, 0.5f * walked};
+        return {first, following, 0.5f * walked};
+      }
+      if (first == kNone) first = following;
       at = following;
     }
-    return kNever;
+    return {kNone, kNone, kNever};
   }
 
   const LipBorder& border_;
@@ -123,6 +132,15 @@ std::vector<LipChain> find_lip_chains(const LipBorder& border, Structure& struct
   std::vector<LipChain> chains;
   for (const Index start : points)
     if (!seen.has(start)) chains.push_back(walk.chain_of(start));
+  const auto chain_that_ends_at = [&](Index point) {
+    const auto found = std::ranges::find_if(chains, [&](const LipChain& chain) {
+      return chain.places.front().point == point || chain.places.back().point == point;
+    });
+    return found == chains.end() ? kNone : static_cast<Index>(found - chains.begin());
+  };
+  for (LipChain& chain : chains)
+    for (LipChain::End* const end : {&chain.front, &chain.back})
+      if (end->other != kNone) end->other = chain_that_ends_at(end->other);
   return chains;
 }
 

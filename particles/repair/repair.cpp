@@ -36,6 +36,18 @@ void begin_change(Structure& structure) {
   structure.scratch.logged_particles.begin(change.particles);
 }
 
+/// The points on the lips of the edit's tear, so far.
+std::vector<Index> all_lips(const StructureEdit& edit) {
+  const PointTable& points = edit.structure().points;
+  const auto is_on_lip = [&](Index point) { return points.lip_points[point].tear == edit.tear(); };
+  std::vector<Index> lips;
+  for (const Change::OfPoint& of : edit.change().changed_points)
+    if (is_on_lip(of.point)) lips.push_back(of.point);
+  for (Index point = edit.change().points; point < points.count(); ++point)
+    if (is_on_lip(point)) lips.push_back(point);
+  return lips;
+}
+
 }  // namespace
 
 void follow_operation(const TornModel& model, Structure& structure,
@@ -51,9 +63,11 @@ void follow_operation(const TornModel& model, Structure& structure,
   renew_vertex_points(edit, changes, lost);
   const std::vector<Index> lips = put_points_on_lips(edit, changes);
   spread_to_new_points(edit, lips.empty() ? kNone : edit.tear());
-  if (!lips.empty()) {
-    choose_sides(edit, lips);
-    begin_band(edit, lips);
+  if (!lips.empty()) choose_sides(edit, lips);
+  const bool is_final = !model.is_in_stroke();
+  const std::vector<Index> of_band = is_final ? all_lips(edit) : lips;
+  if (!of_band.empty()) {
+    begin_band(edit, of_band, is_final);
   } else {
     cover_taken_up(edit);
     const bool is_band_outdated = tears.band && edit.taken_up_count() > 0;
