@@ -9,10 +9,11 @@
 namespace sunder::bench {
 namespace {
 
+constexpr std::uint32_t kCells = 160;  // along each edge of the sheet
 constexpr double kTension = 1.2;
 
 GapFigures measure(double half_length, double range) {
-  test::SlitSheet sheet(100, half_length, range, {});
+  test::SlitSheet sheet(kCells, half_length, range, {});
   GapFigures figures;
   figures.range = range;
   figures.particles = sheet.set->particle_count();
@@ -43,7 +44,7 @@ GapFigures measure_gap_at_200() {
   double range = 0.07;
   GapFigures figures;
   for (int i = 0; i < 6; ++i) {
-    const test::SlitSheet sheet(100, 0.125, range, {});
+    const test::SlitSheet sheet(kCells, 0.125, range, {});
     const double ratio = sheet.set->report().particles / 200.0;
     if (ratio > 0.98 && ratio < 1.02) break;
     range *= std::sqrt(ratio);
@@ -56,7 +57,7 @@ double measure_ellipse_rms() {
   material.return_stiffness = 1;
   material.damping_ratio = 1;
   constexpr double kHalfLength = 0.12;
-  test::SlitSheet sheet(100, kHalfLength, kHalfLength / 4, material);
+  test::SlitSheet sheet(kCells, kHalfLength, kHalfLength / 4, material);
   sheet.open(kTension);
   return difference_from_ellipse(gap_of(sheet), kHalfLength);
 }
