@@ -67,6 +67,7 @@ constexpr const char* kHelp =
     "its\n"
     "                          width, with 200 particles\n"
     "  convergence_order       of the difference of the gap, from 0.2 m to 0.05 m\n"
+    "  griffith_load_spread    of the load at which a slit runs on, over ranges and meshes\n"
     "  vs_nanoflann            bunny_decompose_ms / nanoflann's time for its tree and clusters;\n"
     "                          null if it is not built\n";
 
@@ -210,6 +211,7 @@ void add_gaps(JsonObject& object) {
   object.add("ellipse_rms", measure_ellipse_rms());
   object.add("reference_rms_at_200", measure_gap_at_200().rms);
   object.add("convergence_order", std::log2(gaps[0].rms / gaps[2].rms) / 2);
+  object.add("griffith_load_spread", measure_griffith_load_spread());
 }
 
 void print_summary() {

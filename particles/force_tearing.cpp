@@ -11,6 +11,7 @@
 #include "particles/clusters/lip_border.h"
 #include "particles/clusters/surface_pose.h"
 #include "particles/internal/tolerances.h"
+#include "particles/motion/tip_load.h"
 #include "tear/internal/surface.h"
 
 namespace sunder {
@@ -21,6 +22,12 @@ namespace {
 struct OverstretchedPair {
   Index a = 0, b = 0;
   double over = 0;  ///< Stretch over strength.
+};
+
+/// The point where a tear continues or begins.
+struct Start {
+  Index point = kNone;
+  bool is_tip = false;
 };
 
 /// Number of pairs that are tried if the surface cannot be torn at the first.
@@ -42,6 +49,19 @@ double strength_of(const SoftBody& body, Index a, Index b) {
   if (of_a == 0 || of_b == 0) return std::max(of_a, of_b);
   return std::min(of_a, of_b);
 }
+
+double toughness_of(const SoftBody& body, Index a, Index b) {
+  const double of_a = body.materials()[body.material_of(a)].toughness,
+               of_b = body.materials()[body.material_of(b)].toughness;
+  if (of_a == 0 || of_b == 0) return std::max(of_a, of_b);
+  return std::min(of_a, of_b);
+}
+
+/// A tear to be tried.
+struct Attempt {
+  OverstretchedPair pair;
+  Start start;
+};
 
 /// Pairs beyond their strength, the worst first.
 /// @param greatest  raised to the greatest stretch of all pairs.
@@ -96,12 +116,6 @@ Vec3d greatest_stretch_around(const SoftBody& body, const ParticleSet& particles
   return plane * solver.eigenvectors().col(1);
 }
 
-/// The point where a tear continues or begins.
-struct Start {
-  Index point = kNone;
-  bool is_tip = false;
-};
-
 float weight_of(const ParticleInfluences& of, Index particle) {
   for (std::size_t i = 0; i < 4; ++i)
     if (of.particles[i] == particle) return of.weights[i];
@@ -148,11 +162,13 @@ Index most_common_point(const ParticleSet& particles, const TornModel& model,
   return found;
 }
 
-Start find_start(const ParticleSet& particles, const TornModel& model,
+/// Where a pair's tear begins; nowhere at a tip that runs by its toughness.
+Start find_start(const SoftBody& body, const ParticleSet& particles, const TornModel& model,
                  const OverstretchedPair& pair, std::span<const Index> tips) {
   const Index tip = nearest_tip(particles, pair, tips);
-  if (tip != kNone) return {tip, true};
-  return {most_common_point(particles, model, pair), false};
+  if (tip == kNone) return {most_common_point(particles, model, pair), false};
+  if (toughness_of(body, pair.a, pair.b) > 0) return {};
+  return {tip, true};
 }
 
 /// A short straight tear on the posed surface.
@@ -199,20 +215,37 @@ Result<TearReport> run_tear(TornModel& model, const ModelPose& pose, const Short
   return model.tear(pose, stroke, {}, &change);
 }
 
-/// Tears at the first of some pairs where the surface can be torn.
+/// The tears to be tried: first those of tips whose toughness is exceeded, the worst first, then
+/// those of overstretched pairs.
+/// @param greatest_release  raised to that of all tips with a toughness.
+std::vector<Attempt> attempts_at(const SoftBody& body, const ParticleSet& particles,
+                                 const TornModel& model, std::span<const OverstretchedPair> pairs,
+                                 std::span<const Index> tips, double& greatest_release) {
+  std::vector<Attempt> attempts;
+  for (const TipLoad& load : tip_loads(body, particles, model, tips)) {
+    const double toughness = toughness_of(body, load.left, load.right);
+    if (!(toughness > 0)) continue;
+    greatest_release = std::max(greatest_release, load.release);
+    if (load.release >= toughness)
+      attempts.push_back({{load.left, load.right, load.release / toughness}, {load.tip, true}});
+  }
+  std::stable_sort(attempts.begin(), attempts.end(),
+                   [](const Attempt& x, const Attempt& y) { return x.pair.over > y.pair.over; });
+  for (const OverstretchedPair& pair : pairs.first(std::min(pairs.size(), kMostAttempts)))
+    if (const Start start = find_start(body, particles, model, pair, tips); start.point != kNone)
+      attempts.push_back({pair, start});
+  return attempts;
+}
+
+/// Tears at the first of some places where the surface can be torn.
 /// @param change  written if it was torn.
 Status tear_first(const SoftBody& body, ParticleSet& particles, TornModel& model,
-                  const ModelPose& pose, std::span<const OverstretchedPair> pairs, double length,
+                  const ModelPose& pose, std::span<const Attempt> attempts, double length,
                   ForceTearingReport& report, ChangeRecord& change) {
-  if (Status status = particles.rest(pose, {}, {}); !status) return status;
-  const auto tips = particles.tips(model);
-  if (!tips) return tips.error();
   SurfacePose posed;
   posed.begin(model.character().skins, pose.morph_weights.size());
   if (Status status = posed.set(model.character().skins, pose); !status) return status;
-  for (const OverstretchedPair& pair : pairs.first(std::min(pairs.size(), kMostAttempts))) {
-    const Start start = find_start(particles, model, pair, *tips);
-    if (start.point == kNone) continue;
+  for (const auto& [pair, start] : attempts) {
     const ShortTear tear = place_tear(body, particles, model, posed, pair, start, length);
     if (tear.normal.isZero(0)) continue;
     auto torn = run_tear(model, pose, tear, length, change);
@@ -226,6 +259,11 @@ Status tear_first(const SoftBody& body, ParticleSet& particles, TornModel& model
     return particles.follow(model, std::span(&change, 1));
   }
   return {};
+}
+
+bool has_toughness(const SoftBody& body) {
+  return std::ranges::any_of(body.materials(),
+                             [](const SoftMaterial& material) { return material.toughness > 0; });
 }
 
 }  // namespace
@@ -251,12 +289,18 @@ Result<ForceTearingReport> tear_overstretched(const SoftBody& body, ParticleSet&
   Status status;
   try {
     const auto pairs = particles::find_overstretched(body, particles, report.greatest_stretch);
-    if (pairs.empty()) return report;
+    if (pairs.empty() && !particles::has_toughness(body)) return report;
+    if (const Status valid = particles.rest(pose, {}, {}); !valid) return valid;
+    const auto tips = particles.tips(model);
+    if (!tips) return tips.error();
+    const auto attempts =
+        particles::attempts_at(body, particles, model, pairs, *tips, report.greatest_release);
+    if (attempts.empty()) return report;
     // Allocated before the tear, which must not fail because of its record.
     records.emplace_back();
     const double length = options.length * particles.report().range;
-    status =
-        particles::tear_first(body, particles, model, pose, pairs, length, report, records.back());
+    status = particles::tear_first(body, particles, model, pose, attempts, length, report,
+                                   records.back());
   } catch (const std::bad_alloc&) {
     status = Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
   }

@@ -24,6 +24,7 @@ Status validate_material(const SoftMaterial& material) {
       Field{"stretch_limit", material.stretch_limit == 0 ? 1.0 : material.stretch_limit, 1.0, 1e6},
       Field{"strength", material.strength == 0 ? 2.0 : material.strength, std::nextafter(1.0, 2.0),
             1e6},
+      Field{"toughness", material.toughness, 0.0, 1e12},
   };
   for (const Field& field : fields) {
     if (!std::isfinite(field.value))

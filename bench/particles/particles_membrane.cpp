@@ -1,7 +1,11 @@
 #include "bench/particles/particles_membrane.h"
 
+#include <sunder/particles/force_tearing.h>
+
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 
 #include "bench/harness/measure.h"
 #include "support/oracles/membrane.h"
@@ -60,6 +64,27 @@ double measure_ellipse_rms() {
   test::SlitSheet sheet(kCells, kHalfLength, kHalfLength / 4, material);
   sheet.open(kTension);
   return difference_from_ellipse(gap_of(sheet), kHalfLength);
+}
+
+double measure_griffith_load_spread() {
+  double least = std::numeric_limits<double>::infinity(), greatest = 0;
+  for (const double range : {0.2, 0.1, 0.05})
+    for (const std::uint32_t cells : {80u, 160u, 320u}) {
+      SoftMaterial material;
+      material.toughness = 1e12;
+      test::SlitSheet sheet(cells, 0.2, range, material);
+      sheet.open(kTension);
+      // A little more keeps it awake.
+      if (!sheet.body->set_tension({1.01 * kTension, {}})) std::exit(1);
+      for (int i = 0; i < 5; ++i)
+        if (!sheet.body->step(*sheet.model, sheet.pose, 0.1)) std::exit(1);
+      const auto report = tear_overstretched(*sheet.body, *sheet.set, *sheet.model, sheet.pose);
+      if (!report) std::exit(1);
+      const double load = 1 / std::sqrt(report->greatest_release);
+      least = std::min(least, load);
+      greatest = std::max(greatest, load);
+    }
+  return greatest / least - 1;
 }
 
 }  // namespace sunder::bench

@@ -22,4 +22,8 @@ struct GapFigures {
 /// its greatest width; half the slit is four ranges long.
 [[nodiscard]] double measure_ellipse_rms();
 
+/// How much the loads at which the slit of 0.4 m runs on differ between ranges of 0.2, 0.1 and 0.05
+/// m and sheets of 80, 160 and 320 cells: the greatest over the least, less 1.
+[[nodiscard]] double measure_griffith_load_spread();
+
 }  // namespace sunder::bench

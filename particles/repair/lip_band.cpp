@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "particles/clusters/lip_spacing.h"
 #include "particles/internal/tolerances.h"
 #include "particles/repair/cover.h"
 #include "particles/repair/grow.h"
@@ -99,9 +100,7 @@ float set_sizes(const Structure& structure, bool is_final, std::span<LipChain> c
   for (LipChain& chain : chains) {
     chain.depth = std::min(range, std::max(0.5f * chain.length, edge));
     deepest = std::max(deepest, chain.depth);
-    float spacing = std::max(kLeastSpacingEdges * edge,
-                             std::min(kLipSpacingRanges * range, chain.length / kLeastPerLip));
-    if (std::isfinite(chain.length)) spacing = chain.length / std::ceil(chain.length / spacing);
+    const float spacing = lip_spacing(range, edge, chain.length);
     chain.spacing = is_final && spacing <= kMostSpacingRanges * range ? spacing : 0;
   }
   return deepest;

@@ -14,6 +14,7 @@
 
 #include "particles/soft_scene.h"
 #include "support/models/rigs.h"
+#include "support/oracles/membrane.h"
 #include "support/oracles/model_state.h"
 
 namespace sunder {
@@ -160,6 +161,76 @@ TEST(ForceTearing, refuses_bad_options) {
         tear_overstretched(*scene.body, *scene.set, *scene.model, scene.pose, {length});
     ASSERT_FALSE(report) << length;
     EXPECT_EQ(report.error().code(), StatusCode::invalid_argument);
+  }
+}
+
+/// The energy that the tips of a slit release, by the tissue's own particles.
+double release_of_tips(std::uint32_t cells, double half_length, double range) {
+  SoftMaterial material;
+  material.toughness = 1e6;
+  test::SlitSheet sheet(cells, half_length, range, material);
+  sheet.open(1.2);
+  EXPECT_TRUE(sheet.body->set_tension({1.21, {}}));  // so that it is awake
+  for (int i = 0; i < 5; ++i) EXPECT_TRUE(sheet.body->step(*sheet.model, sheet.pose, 0.1));
+  const auto report = tear_overstretched(*sheet.body, *sheet.set, *sheet.model, sheet.pose);
+  EXPECT_TRUE(report);
+  EXPECT_FALSE(report->has_torn);
+  return report->greatest_release;
+}
+
+/// The same by finite elements: the work of the tension on a slightly longer slit less that on a
+/// slightly shorter one.
+double release_by_energies(std::uint32_t cells, double half_length) {
+  const double more = 4.0 / cells;
+  const auto energy = [&](double half) {
+    const test::SlitSheet sheet(cells, half, 0.2, {});
+    const std::vector<Vec3d> forces = test::lip_forces(*sheet.set, 1.21);
+    const std::vector<Vec3d> moved =
+        test::solve_membrane(*sheet.model, sheet.set->positions(), {}, forces);
+    double sum = 0;
+    for (std::size_t p = 0; p < moved.size(); ++p) sum += 0.5 * moved[p].dot(forces[p]);
+    return sum;
+  };
+  return (energy(half_length + more) - energy(half_length - more)) / (4 * more);  // of two tips
+}
+
+TEST(Toughness, is_exceeded_at_the_same_load_at_any_range_and_on_any_mesh) {
+  for (const double half_length : {0.1, 0.2, 0.3}) {
+    const double wanted = release_by_energies(160, half_length);
+    for (const double range : {0.2, 0.1, 0.05})
+      for (const std::uint32_t cells : {80u, 160u}) {
+        if (2 * half_length < 1.5 * range || range * cells < 7) continue;
+        // Loads are as the roots of energies.
+        EXPECT_NEAR(std::sqrt(release_of_tips(cells, half_length, range) / wanted), 1, 0.15)
+            << half_length << " " << range << " " << cells;
+      }
+  }
+}
+
+TEST(Toughness, decides_whether_a_tip_runs_on) {
+  for (const bool is_tough : {false, true}) {
+    SoftMaterial material;
+    material.toughness = is_tough ? 0.1 : 0.02;
+    test::SlitSheet sheet(80, 0.2, 0.1, material);
+    sheet.open(1.0);
+    EXPECT_TRUE(sheet.body->set_tension({1.2, {}}));
+    std::vector<ChangeRecord> changes;
+    double torn = 0;
+    for (int i = 0; i < 20; ++i) {
+      ASSERT_TRUE(sheet.body->step(*sheet.model, sheet.pose, 1.0 / 60));
+      const auto report =
+          tear_overstretched(*sheet.body, *sheet.set, *sheet.model, sheet.pose, {}, &changes);
+      ASSERT_TRUE(report) << report.error().text();
+      if (!report->has_torn) continue;
+      EXPECT_TRUE(report->is_from_tip);
+      EXPECT_GT(std::abs(report->direction.x()), 0.9);  // straight on
+      EXPECT_GE(report->greatest_release, 0.02);
+      torn += report->tear.length_posed;
+    }
+    if (is_tough)
+      EXPECT_EQ(torn, 0.0);
+    else
+      EXPECT_GT(torn, 0.1);
   }
 }
 

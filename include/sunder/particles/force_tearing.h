@@ -15,6 +15,8 @@ struct ForceTearingReport {
   /// Greatest stretch of awake neighbours: their distance relative to rest. Neighbours closer at
   /// rest than seeds can be count as if they had the distance of seeds.
   double greatest_stretch = 0.0;
+  /// Greatest energy that a tip with a toughness would release by running on, joules per metre.
+  double greatest_release = 0.0;
   bool has_torn = false;
   bool is_from_tip = false;     ///< Whether the tear continues an older one.
   Vec3d place = Vec3d::Zero();  ///< Start of the tear on the posed surface; model space, metres.
@@ -22,12 +24,14 @@ struct ForceTearingReport {
   TearReport tear;
 };
 
-/// Tears the tissue where it is stretched beyond the strength of its material, across the direction
-/// of the greatest stretch: from the tip of a tear near the most stretched neighbours, or between
-/// them. Call it after SoftBody::step(). The tear is an operation in the history, which can be
-/// undone and replayed. Deterministic; one thread at a time per model.
+/// Tears the tissue across the direction of the greatest stretch. A tip in a material with a
+/// toughness runs on if that releases at least as much energy (Griffith). Elsewhere the tissue
+/// tears where it is stretched beyond its strength: from the tip of a tear near the most stretched
+/// neighbours, or between them. Call it after SoftBody::step(). The tear is an operation in the
+/// history, which can be undone and replayed. Deterministic; one thread at a time per model.
 ///
-/// @param body       its materials have the strengths; of two neighbours the lower one applies.
+/// @param body       its materials have strengths and toughnesses; of two neighbours the lower one
+///                   applies.
 /// @param particles  those of the body; they follow the tear.
 /// @param model      torn by at most one operation.
 /// @param pose       that of the last step.
