@@ -1,6 +1,7 @@
 #include "particles/motion/turn_of.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "core/internal/ordered.h"
 #include "particles/internal/tolerances.h"
@@ -15,6 +16,9 @@ constexpr double kLeastNorm = 1e-150, kMostNorm = 1e150;
 /// rounding, because convergence is quadratic.
 constexpr double kSquaredChange = 1e-15;
 constexpr int kMostIterations = 40;
+/// Iterates whose determinant is nearer to 1 are not scaled. Their singular values are near 1: the
+/// sum of their squares is 3 in the first round, and they are at least 1 in all later ones.
+constexpr double kFarDeterminant = 0.1;
 
 /// Sum over the columns of their squared norms: one written order, and three short sums that do not
 /// wait for each other.
@@ -29,25 +33,21 @@ bool turn_of(const Mat3d& linear, Mat3d& turn) {
   Matrix x = linear;
   const double size = std::sqrt(sum_of_squares(x));
   if (!(size > kLeastNorm) || !(size < kMostNorm)) return false;
-  x /= size;
-  const auto cofactors = [](const Matrix& m) {
-    Matrix c;
-    c << m.col(1).cross(m.col(2)), m.col(2).cross(m.col(0)), m.col(0).cross(m.col(1));
-    return c;
-  };
-  double change = 1;
+  x *= std::numbers::sqrt3 / size;  // the norm of a rotation
   for (int i = 0; i < kMostIterations; ++i) {
-    const Matrix c = cofactors(x);
-    const double determinant = dot(x.col(0), c.col(0));
-    if (!(determinant > kFlatDeterminant))
-      return false;  // of a map of unit size; after the first round it is near 1
-    const Matrix inverse_transposed = c / determinant;
-    // Uniform scales vanish after one step, others soon; then scaling is not needed.
-    const double scale =
-        change > 1e-2 ? std::sqrt(std::sqrt(sum_of_squares(inverse_transposed) / sum_of_squares(x)))
-                      : 1.0;
-    const Matrix next = 0.5 * (scale * x + inverse_transposed / scale);
-    change = sum_of_squares(next - x);
+    Matrix cofactors;
+    cofactors << x.col(1).cross(x.col(2)), x.col(2).cross(x.col(0)), x.col(0).cross(x.col(1));
+    const double determinant = dot(x.col(0), cofactors.col(0));
+    if (i == 0 && !(determinant > kFlatDeterminant * 3 * std::numbers::sqrt3)) return false;
+    double by_x = 0.5, by_cofactors = 0.5 / determinant;
+    if (std::abs(determinant - 1) > kFarDeterminant) {
+      const double scale =
+          std::sqrt(std::sqrt(sum_of_squares(cofactors) / sum_of_squares(x)) / determinant);
+      by_x *= scale;
+      by_cofactors /= scale;
+    }
+    const Matrix next = by_x * x + by_cofactors * cofactors;
+    const double change = sum_of_squares(next - x);
     x = next;
     if (change < kSquaredChange) break;
   }
