@@ -13,8 +13,8 @@ std::size_t bytes_of(const Motion& motion) {
                       bytes_of(motion.awake) + bytes_of(motion.touched) + bytes_of(motion.bound) +
                       bytes_of(motion.quiet.seconds);
   for (const auto* column :
-       {&motion.displacements, &motion.velocities, &motion.starts, &motion.corrections,
-        &motion.forces, &motion.lip_forces, &motion.winds, &motion.quiet.from, &motion.quiet.pulls})
+       {&motion.displacements, &motion.velocities, &motion.starts, &motion.forces,
+        &motion.lip_forces, &motion.winds, &motion.quiet.from, &motion.quiet.pulls})
     bytes += bytes_of(*column);
   return bytes;
 }
@@ -26,7 +26,8 @@ std::size_t bytes_of(const ShownMotion& shown) {
 
 std::size_t bytes_of(const StepScratch& scratch) {
   return bytes_of(scratch.active) + bytes_of(scratch.needed) + bytes_of(scratch.changed) +
-         bytes_of(scratch.is_needed) + bytes_of(scratch.sums) + bytes_of(scratch.steps);
+         bytes_of(scratch.is_needed) + bytes_of(scratch.sums) + bytes_of(scratch.corrections) +
+         bytes_of(scratch.steps);
 }
 
 }  // namespace

@@ -36,6 +36,7 @@ struct StepScratch {
   std::vector<Index> active, needed, changed;
   std::vector<std::uint8_t> is_needed;
   std::vector<Vec3d> sums;
+  std::vector<Vec3d> corrections;  ///< Per particle: by neighbours and holds.
   std::vector<SpringStep> steps;
 };
 

@@ -58,8 +58,7 @@ void BodyState::follow_pose(double seconds) {
     if (options.follow == Follow::ride) {
       if (motion.awake[p] == 0 && shown.is_displaced[p] == 0) continue;
       if (motion.awake[p] == 0) motion.wake(p);
-      for (auto* vectors :
-           {&motion.displacements, &motion.velocities, &motion.quiet.from, &motion.corrections})
+      for (auto* vectors : {&motion.displacements, &motion.velocities, &motion.quiet.from})
         (*vectors)[p] = multiply(rests.turn_of_step(p), (*vectors)[p]);
     } else {
       motion.wake(p);
@@ -110,12 +109,12 @@ void BodyState::integrate(double seconds) {
   if (seconds < kShortestStepSeconds) return;
   solver.solve({graph, scratch.active, steps, motion.material_of, motion.displacements,
                 motion.velocities, holds.pulls(), seconds},
-               motion.corrections);
+               scratch.corrections);
   for (const Index p : scratch.active) {
     const SpringStep& step = steps[motion.material_of[p]];
-    motion.displacements[p] += motion.corrections[p];
+    motion.displacements[p] += scratch.corrections[p];
     motion.velocities[p] +=
-        step.velocity_from_acceleration() / step.place_from_acceleration * motion.corrections[p];
+        step.velocity_from_acceleration() / step.place_from_acceleration * scratch.corrections[p];
   }
 }
 

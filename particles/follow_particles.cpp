@@ -40,6 +40,7 @@ void BodyState::reserve(Index count) {
   for (std::vector<Index>* list : {&scratch.active, &scratch.needed, &scratch.changed})
     list->reserve(count);
   scratch.sums.reserve(count);
+  scratch.corrections.resize(count);
   scratch.is_needed.reserve(count);
 }
 

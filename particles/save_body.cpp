@@ -103,8 +103,8 @@ Recorded recorded(const BodyState& state) {
 void describe(Tape& tape, Motion& of) {
   tape.all(of.serials);
   tape.all(of.material_of);
-  for (auto* column : {&of.displacements, &of.velocities, &of.starts, &of.corrections, &of.forces,
-                       &of.lip_forces, &of.winds, &of.quiet.from, &of.quiet.pulls})
+  for (auto* column : {&of.displacements, &of.velocities, &of.starts, &of.forces, &of.lip_forces,
+                       &of.winds, &of.quiet.from, &of.quiet.pulls})
     tape.all(*column);
   for (auto* flags : {&of.awake, &of.touched, &of.bound})
     tape.each(*flags, [&](std::uint8_t& flag) { tape.small(flag, 2); });
@@ -146,8 +146,8 @@ bool has_count(const Recorded& of, std::size_t count) {
              of.shown.displacements.size() == count && of.shown.turns.size() == count &&
              of.shown.is_displaced.size() == count;
   for (const auto* column :
-       {&motion.displacements, &motion.velocities, &motion.starts, &motion.corrections,
-        &motion.forces, &motion.lip_forces, &motion.winds, &motion.quiet.from, &motion.quiet.pulls})
+       {&motion.displacements, &motion.velocities, &motion.starts, &motion.forces,
+        &motion.lip_forces, &motion.winds, &motion.quiet.from, &motion.quiet.pulls})
     has &= column->size() == count;
   for (const auto* flags : {&motion.awake, &motion.touched, &motion.bound})
     has &= flags->size() == count;

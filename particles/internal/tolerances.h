@@ -119,12 +119,12 @@ inline constexpr double kRowDeterminantFraction = 1e-4;
 
 // ---- Solvers.
 
-/// Residual of the springs between particles, relative to the right-hand side, in the
-/// preconditioner's norm.
-inline constexpr double kCouplingResidual = 1e-8;
-/// The square of the same for bodies in a Bullet world, which have single precision.
+/// Least compliance of a hold, as a fraction of that of the tissue it pulls. A stiffer hold would
+/// act the same, but forces of holds against one another would lose their digits.
+inline constexpr double kLeastCompliance = 1e-12;
+/// Squared residual of the springs between bodies in a Bullet world, which have single precision,
+/// relative to the right-hand side.
 inline constexpr double kBulletSquaredResidual = 1e-12;
-static_assert(kCouplingResidual * kCouplingResidual < kBulletSquaredResidual);
 /// A linear map of unit norm whose determinant is below this is singular: it has no rotation and no
 /// inverse.
 inline constexpr double kFlatDeterminant = 1e-9;

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "particles/motion/coupling_factor.h"
 #include "particles/motion/damped_spring.h"
 #include "particles/motion/spring_graph.h"
 
@@ -27,8 +28,8 @@ struct PointPull {
 ///   (m / G + K + D S / G) x = -(K p + D q),
 ///
 /// which is symmetric and positive definite for any step, and exact for the return springs. If two
-/// particles have different responses, their spring uses the greater S / G of both. Solved by
-/// conjugate gradients, starting from the solution of the last step.
+/// particles have different responses, their spring uses the greater S / G of both. Solved by a
+/// factor, which is kept as long as the matrix stays the same.
 class CouplingSolver {
  public:
   struct Inputs {
@@ -43,43 +44,40 @@ class CouplingSolver {
     double seconds = 0;
   };
 
-  ///
-  /// @param corrections  per particle: x, computed. Input: the start of the search.
-  /// @return the number of iterations. O(iterations x springs of `active`); no allocation once
-  ///         warm.
-  int solve(const Inputs& inputs, std::span<Vec3d> corrections);
+  /// O(particles + entries of the factor), and a multiple if the matrix changed; no allocation once
+  /// warm. The result depends on the inputs alone.
+  /// @param corrections  per particle: x, written for those of `active`.
+  void solve(const Inputs& inputs, std::span<Vec3d> corrections);
 
-  [[nodiscard]] std::size_t memory_bytes() const {
-    return (row_of_.capacity() + first_.capacity()) * sizeof(Index) +
-           entries_.capacity() * sizeof(Entry) + pulls_.capacity() * sizeof(ActivePull) +
-           (diagonal_.capacity() + inverse_.capacity() + ratios_.capacity()) * sizeof(double) +
-           5 * x_.capacity() * sizeof(Vec4);
-  }
+  [[nodiscard]] std::size_t memory_bytes() const;
 
  private:
-  using Vec4 = Eigen::Vector4d;  // three coordinates; the fourth fills two registers of two
-  struct Entry {
-    Index column = 0;
-    double value = 0;
-  };
-  struct ActivePull {
-    std::array<Index, 4> rows = {};
-    std::array<double, 4> weights = {};
-    double stiffness = 0;
+  using Vec4 = CouplingFactor::Vec4;
+  /// A particle of a pull, by its row and that of the pull.
+  struct PullEntry {
+    Index row = 0, column = 0;
+    double weight = 0;
   };
 
+  void find_rows(const Inputs& inputs);
   void assemble(const Inputs& inputs);
-  void assemble_pulls(const Inputs& inputs);
-  /// product = A x
-  void multiply(const std::vector<Vec4>& x, std::vector<Vec4>& product) const;
+  void assemble_springs(const Inputs& inputs, Index row);
+  void assemble_still(const Inputs& inputs, Index row);
+  void assemble_pull(const Inputs& inputs, const PointPull& pull);
 
-  std::vector<Index> row_of_;  // kNone for a particle that does not move
-  std::vector<Index> first_;
-  std::vector<Entry> entries_;
-  std::vector<double> diagonal_, inverse_;
-  std::vector<double> ratios_;  // velocity per place, per material
-  std::vector<ActivePull> pulls_;
-  std::vector<Vec4> x_, right_, residual_, direction_, product_;
+  void add_entry(Index column, double value) {
+    matrix_.pattern.columns.push_back(column);
+    matrix_.values.push_back(value);
+  }
+
+  std::vector<Index> rows_;          // the particle of each row, ascending
+  std::vector<std::uint8_t> moves_;  // per particle
+  std::vector<Index> row_of_;        // kNone for a particle without a row
+  std::vector<double> ratios_;       // velocity per place, per material
+  std::vector<PullEntry> pull_entries_;
+  SpringMatrix matrix_, factorised_;
+  CouplingFactor factor_;
+  std::vector<Vec4> x_;  // the right-hand side, then the solution
 };
 
 }  // namespace sunder::particles

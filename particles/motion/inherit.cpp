@@ -16,8 +16,7 @@ void inherit(const ParticleInfluences& parents, Index particle, RestMotion& rest
     rest_velocity += weight * rests.velocity(parent);
     sum += weight;
   }
-  for (auto* vectors : {&motion.forces, &motion.lip_forces, &motion.winds, &motion.corrections,
-                        &motion.quiet.pulls})
+  for (auto* vectors : {&motion.forces, &motion.lip_forces, &motion.winds, &motion.quiet.pulls})
     (*vectors)[particle].setZero();
   if (!(sum > 0)) sum = 1;
   motion.displacements[particle] = motion.starts[particle] = displacement / sum;

@@ -19,8 +19,6 @@ struct Motion {
   std::vector<Vec3d> displacements;
   std::vector<Vec3d> velocities;  ///< Of the displacement.
   std::vector<Vec3d> starts;      ///< Displacements before the step.
-  /// Contribution of neighbours and holds in the last step: the start of the next search.
-  std::vector<Vec3d> corrections;
   std::vector<Vec3d> forces;      ///< Newtons, set by the caller.
   std::vector<Vec3d> lip_forces;  ///< Newtons, in the decomposition's pose.
   std::vector<Vec3d> winds;       ///< m/s^2.
@@ -55,12 +53,11 @@ struct Motion {
     awake[particle] = 1;
     ++awake_count;
     quiet.from[particle] = displacements[particle];
-    corrections[particle].setZero();
   }
 
  private:
-  std::array<std::vector<Vec3d>*, 9> vector_columns() {
-    return {&displacements, &velocities, &starts,     &corrections, &forces,
+  std::array<std::vector<Vec3d>*, 8> vector_columns() {
+    return {&displacements, &velocities, &starts,     &forces,
             &lip_forces,    &winds,      &quiet.from, &quiet.pulls};
   }
 };

@@ -96,7 +96,6 @@ void Sleep::fall_asleep(const World& world, std::span<const Index> active, doubl
     motion.awake[p] = 0;
     --motion.awake_count;
     motion.velocities[p].setZero();
-    motion.corrections[p].setZero();
     const double at_rest = kAtRestRanges * world.set.range(p);
     if (world.materials[motion.material_of[p]].return_stiffness > 0 && motion.bound[p] == 0 &&
         squared_norm(motion.displacements[p]) < at_rest * at_rest &&
