@@ -16,6 +16,7 @@ namespace sunder::particles {
 struct OuterForces {
   Vec3d gravity = Vec3d::Zero();
   WindField wind;
+  bool has_blown = false;  ///< Whether Motion::winds may be other than zero.
   Tension tension;
   bool is_tension_stale = false;  ///< Whether Motion::lip_forces must be recomputed.
   double time = 0;  ///< Seconds of all steps: the time at which the wind is asked for.

@@ -72,7 +72,8 @@ void BodyState::follow_pose(double seconds) {
 }
 
 void BodyState::follow_forces(const TornModel& model, const ModelPose& pose) {
-  std::fill(motion.winds.begin(), motion.winds.end(), Vec3d::Zero());
+  if (outer.has_blown) std::fill(motion.winds.begin(), motion.winds.end(), Vec3d::Zero());
+  outer.has_blown = static_cast<bool>(outer.wind);
   if (outer.wind)
     for (Index p = 0; p < motion.count(); ++p) {
       const Vec3d felt = outer.wind(rests.place(p) + motion.displacements[p], outer.time);

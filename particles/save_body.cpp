@@ -194,6 +194,7 @@ void set_state(Recorded&& of, BodyState& state) {
   state.outer.gravity = of.gravity;
   state.outer.tension.newtons_per_metre = of.tension;
   state.outer.time = of.time;
+  state.outer.has_blown = true;
   state.outer.is_tension_stale = of.is_tension_stale;
   state.holds = std::move(of.holds);
   state.graph.is_stale = true;
