@@ -59,12 +59,15 @@ class LipWalk {
     return norm(points_.positions[b] - points_.positions[a]);
   }
 
-  /// The first point of a chain; the start itself if the chain is closed.
+  /// The first point of a chain; the start itself if the chain is closed. Where a border touches
+  /// itself, the way back may circle without passing the start: then any of its points.
   [[nodiscard]] First walk_back(Index start) const {
     Index first = start;
     float beyond = 0;  // the points given
+    Index steps = 0;
     for (Index at = step(start, false);
-         at != kNone && !seen_.has(at) && is_lip(at) && beyond < limit_; at = step(at, false)) {
+         at != kNone && !seen_.has(at) && is_lip(at) && beyond < limit_ && steps < points_.count();
+         at = step(at, false), ++steps) {
       if (at == start) return {first, true};
       beyond = given_.has(at) ? 0 : beyond + between(first, at);
       first = at;
@@ -94,7 +97,8 @@ class LipWalk {
   [[nodiscard]] LipChain::End end_at(Index end, bool forward) const {
     float walked = 0;
     Index first = kNone;
-    for (Index at = end; walked <= 2 * limit_;) {
+    Index steps = 0;
+    for (Index at = end; walked <= 2 * limit_ && steps < points_.count(); ++steps) {
       const Index following = step(at, forward);
       if (following == kNone || following == end) break;
       walked += between(at, following);

@@ -297,7 +297,7 @@ std::string difference(const ParticleState::Particle& a, const ParticleState::Pa
     if (x.particle != y.particle || x.edges != y.edges) return say("neighbour ", i);
     if (sameness == Sameness::bits
             ? x.coupling != y.coupling || x.across != y.across || x.middles != y.middles
-            : !are_near(x.coupling, y.coupling))
+            : !(std::abs(x.coupling - y.coupling) <= 1e-7 * (1 + x.coupling)))
       return say("coupling with neighbour ", i, ": ", x.coupling, " and ", y.coupling);
   }
   if (sameness == Sameness::bits ? a.area != b.area : !are_near(a.area, b.area))
