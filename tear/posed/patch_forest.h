@@ -38,6 +38,12 @@ class PatchForest {
   void visit_faces(const SurfaceEditor& editor, const CharacterPose& pose, const Frame& frame,
                    Bound bound, Expect expect, Visit visit);
 
+  /// Calls visit(tree, group, end) for the groups of patches of a mesh that may_hold(tree, level,
+  /// number of a node) accepts, with all nodes above them, in no particular order. Origins from
+  /// `end` on were undone.
+  template <class MayHold, class Visit>
+  void for_each_group(const SurfaceEditor& editor, Index mesh, MayHold may_hold, Visit visit);
+
   [[nodiscard]] std::size_t bytes() const;
   /// The number of trees over the walls and caps of a mesh.
   [[nodiscard]] std::size_t filling_tree_count(Index mesh) const {
@@ -175,6 +181,30 @@ void PatchForest::visit_faces(const SurfaceEditor& editor, const CharacterPose& 
       add(bound(covered.tree->posed_box(level, child, mesh_pose, epoch_, covered.boxes)),
           {0, &covered, node.height - 1, child}, first);
   }
+}
+
+template <class MayHold, class Visit>
+void PatchForest::for_each_group(const SurfaceEditor& editor, Index mesh, MayHold may_hold,
+                                 Visit visit) {
+  cover(editor);
+  for_each_tree([&](Covered& covered) {
+    if (covered.mesh != mesh) return;
+    const PatchTree& tree = *covered.tree;
+    stack_.clear();
+    stack_.push_back({0, &covered, tree.level_count(), 0});
+    while (!stack_.empty()) {
+      const Index level = stack_.back().height - 1, number = stack_.back().number;
+      stack_.pop_back();
+      if (!may_hold(tree, level, number)) continue;
+      if (level == 0) {
+        visit(tree, number, covered.end);
+        continue;
+      }
+      const Index end = std::min(PatchTree::kFanOut * (number + 1), tree.node_count(level - 1));
+      for (Index child = PatchTree::kFanOut * number; child < end; ++child)
+        stack_.push_back({0, &covered, level, child});
+    }
+  });
 }
 
 }  // namespace sunder::tear

@@ -11,10 +11,6 @@
 namespace sunder::tear {
 namespace {
 
-constexpr float kWeightParts = 65000;  // less than 2^16, because weights may slightly exceed 1
-constexpr float kBoxParts = 255;
-/// If more bones move a node, ranges of weights do not improve on the hull.
-constexpr std::size_t kFewBones = 12;
 constexpr std::size_t kMaximumSlots = std::size_t{1} << 16;
 
 /// A box as its low corner and its negated high corner, each with a fourth lane, so that both grow

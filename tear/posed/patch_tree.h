@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tear/geometry/box.h"
+#include "tear/posed/plane_distances.h"
 #include "tear/posed/posed_bones.h"
 
 namespace sunder::tear {
@@ -63,6 +64,13 @@ class PatchTree {
   Index compute_posed_patches(Index group, const MeshPose& pose,
                               std::array<Shadow, kPatchesPerGroup>& shadows) const;
 
+  /// The side of a plane on which all vertices of a node lie that are not on the plane, whatever
+  /// rounding does, as PlaneDistances::side_of(); kAcross if it is not known.
+  [[nodiscard]] std::uint8_t side_of(Index level, Index number,
+                                     const PlaneDistances& distances) const;
+  /// One bit per patch of a group: whether its side is not known.
+  [[nodiscard]] std::uint32_t patches_across(Index group, const PlaneDistances& distances) const;
+
   [[nodiscard]] std::size_t bytes() const;
 
  private:
@@ -70,6 +78,11 @@ class PatchTree {
   struct FloatBox {
     std::array<float, 4> low{}, high{};
   };
+
+  static constexpr float kBoxParts = 255;
+  static constexpr float kWeightParts = 65000;  // less than 2^16: weights may slightly exceed 1
+  /// If more bones move a node, ranges of weights do not improve on the hull.
+  static constexpr std::size_t kFewBones = 12;
 
   struct Node {
     FloatBox bind;  ///< Of all corners.
@@ -95,6 +108,7 @@ class PatchTree {
   };
   class Builder;
   class Bound;
+  struct ComparedNode;
 
   [[nodiscard]] FloatBox compute_posed_box(Index node, const MeshPose& pose) const;
   static std::span<const Index> part_of(std::span<const Index> numbers, std::size_t part,

@@ -10,14 +10,6 @@
 #include "tear/internal/surface.h"
 
 namespace sunder::tear {
-namespace {
-
-/// A surface of fewer points stays in the cache of a core, where prefetching costs more than it
-/// saves.
-constexpr Index kCachedPoints = 8192;
-
-}  // namespace
-
 Status PosedPoints::begin(const Character& character, const ModelPose& pose) {
   if (Status status = pose_.set(character, pose); !status) return status;
   forest_.forget_pose();

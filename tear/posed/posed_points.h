@@ -19,6 +19,10 @@ namespace sunder::tear {
 /// torn on one surface. Later operations see them where their weights put them.
 class PosedPoints {
  public:
+  /// A surface of fewer points stays in the cache of a core, where prefetching costs more than it
+  /// saves.
+  static constexpr Index kCachedPoints = 8192;
+
   /// Sets the pose and forgets all points. @return as CharacterPose::set().
   [[nodiscard]] Status begin(const Character& character, const ModelPose& pose);
 

@@ -5,10 +5,11 @@
 #include "core/internal/ordered.h"
 #include "tear/internal/surface.h"
 #include "tear/path/imprint_point.h"
+#include "tear/sheet/faces_near.h"
 #include "tear/sheet/imprint_sheets.h"
-#include "tear/sheet/plane_scan.h"
 #include "tear/sheet/section_corners.h"
 #include "tear/sheet/walk_sheet.h"
+#include "tear/surface/sort_by_index.h"
 
 namespace sunder::tear {
 namespace {
@@ -79,30 +80,11 @@ ScratchVector<Index> faces_across(const Sheet& sheet, const SurfaceEditor& edito
     };
     if (std::all_of(sheet.bounds.begin(), sheet.bounds.end(), has_corner_in)) faces.push_back(face);
   };
-  if (sheet.bounds.empty() && is_scanned(editor, posed)) {
-    const ScratchVector<Index> near = scan_faces(sheet.plane, editor, posed);
-    faces.reserve(near.size());
-    for (const Index face : near) add(face);
-    std::sort(faces.begin(), faces.end());
-    return faces;
-  }
-  const Frame frame = posed.frame_along(
-      axes_along(sheet.plane.normal,
-                 sheet.bounds.empty() ? Vec3d(Vec3d::Zero()) : sheet.bounds[0].side.normal),
-      editor);
-  ScratchVector<FramedPlaneSide> sides(&editor.scratch());
-  sides.reserve(sheet.bounds.size() + 2);
-  const double on_plane = posed.farthest_on_plane(editor);
-  sides.emplace_back(frame, PlaneSide{sheet.plane.normal, sheet.plane.offset - on_plane});
-  sides.emplace_back(frame, PlaneSide{-sheet.plane.normal, -sheet.plane.offset - on_plane});
-  for (const Sheet::Bound& bound : sheet.bounds) sides.emplace_back(frame, bound.side);
-  const auto may_meet = [&](const FrameBox& box) {
-    return std::none_of(sides.begin(), sides.end(),
-                        [&](const FramedPlaneSide& side) { return side.is_beside(box); });
-  };
-  faces.reserve(256);
-  posed.for_each_face(editor, frame, may_meet, add);
-  std::sort(faces.begin(), faces.end());
+  const ScratchVector<Index> near = faces_near(sheet, editor, posed);
+  faces.reserve(near.size());
+  for (const Index face : near) add(face);
+  sort_by_index(
+      faces, [](Index face) { return face; }, editor.scratch());
   return faces;
 }
 

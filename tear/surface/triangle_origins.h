@@ -27,9 +27,15 @@ class TriangleOrigins {
     };
     if (origin < source_.meshes[mesh].triangle_count())
       visit_face(surface().first_triangle[mesh] + origin);
+    for_each_appended_part(mesh, origin, visit_face);
+  }
+  /// The same for each triangle that was appended as a part of an origin, also where nothing of it
+  /// remains.
+  template <class Visit>
+  void for_each_appended_part(Index mesh, Index origin, Visit visit) const {
     for (Index part = columns_.meshes[mesh].newest_part[origin]; part != kNone;
          part = columns_.older_part[part - source_triangles()])
-      visit_face(part);
+      visit(part);
   }
   /// Whether a face is a triangle of the source that nothing has changed.
   [[nodiscard]] bool is_whole(Index triangle) const {

@@ -1,5 +1,5 @@
 // The side of a plane on which a vertex is in float, against its position in double.
-#include "tear/sheet/plane_distances.h"
+#include "tear/posed/plane_distances.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "tear/sheet/plane_distances.h"
+#include "tear/posed/plane_distances.h"
 
 namespace sunder::tear {
 
@@ -20,8 +20,10 @@ PlaneDistances::PlaneDistances(const PlaneSide& plane, std::span<const Affine3d>
     steepest = std::max({steepest, size_of[0], size_of[1], size_of[2]});
     farthest = std::max(farthest, std::abs(row[3]));
     in_model = std::max(in_model, size_of[3] + std::abs(plane.offset));
-    for (std::size_t column = 0; column < 4; ++column)
-      rows_[slot][column] = static_cast<float>(row[column]);
+    for (std::size_t column = 0; column < 4; ++column) {
+      rows_[slot].of[column] = static_cast<float>(row[column]);
+      rows_[slot].size[column] = std::abs(rows_[slot].of[column]);
+    }
   }
   const auto is_in_float = [](double value) { return value < double{kLargestPosedMetres}; };
   if (!is_in_float(steepest) || !is_in_float(farthest) || !(in_model < kFarthestPosedMetres)) {
