@@ -71,6 +71,14 @@ Index SheetWalk::lone_corner(Index face) {
   return kNone;
 }
 
+/// Whether a face and all of its neighbours are triangles of the source, if only in part.
+bool SheetWalk::is_among_source_faces(Index face) const {
+  const Surface& surface = editor_.surface();
+  const Index end = 3 * surface.first_triangle.back(), *twins = &surface.twin[3 * face];
+  return 3 * face < end &&
+         std::all_of(twins, twins + 3, [&](Index twin) { return twin == kNone || twin < end; });
+}
+
 /// Edges between parts of one origin, and within a flat cap, only belong to the triangulation that
 /// earlier operations left. Where the plane crosses one on its way round a point, the edge is
 /// flipped, so that it need not be split.
@@ -84,6 +92,7 @@ void SheetWalk::turn_edges_at(Index face) {
     const Index beyond = surface.corner_point[Surface::previous(twin)];
     return is_inside(beyond) != is_lone_inside && turn_edge(half_edge);
   };
+  if (is_among_source_faces(face)) return;
   for (bool has_turned = true; has_turned;) {
     const Index lone = lone_corner(face);
     if (lone == kNone) return;
@@ -134,9 +143,12 @@ SheetWalk::Crossing SheetWalk::crossing(Index half_edge) {
   const double fraction =
       at_from == at_to ? 0.0 : std::clamp(at_from / (at_from - at_to), 0.0, 1.0);
   const Vec3d way = to - from;
-  const double slant =
-      norm(way) / std::max(std::abs(at_from - at_to), std::numeric_limits<double>::min());
-  const double snap = std::min(kFarthestSnapEdges, stored_part(h, editor_) * slant);
+  double snap = 0;
+  if (std::min(fraction, 1 - fraction) <= kFarthestSnapEdges) {
+    const double slant =
+        norm(way) / std::max(std::abs(at_from - at_to), std::numeric_limits<double>::min());
+    snap = std::min(kFarthestSnapEdges, stored_part(h, editor_) * slant);
+  }
   const bool is_begin = posed_.is_on_plane(editor_, surface.corner_point[h]) || fraction <= snap;
   const bool is_end =
       posed_.is_on_plane(editor_, surface.corner_point[Surface::next(h)]) || fraction >= 1 - snap;

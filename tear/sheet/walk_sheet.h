@@ -45,6 +45,7 @@ class SheetWalk {
   [[nodiscard]] Crossing crossing(Index half_edge);
   /// Whether the plane passes at least two corners of a face.
   [[nodiscard]] bool has_edge_on_plane(Index face);
+  [[nodiscard]] bool is_among_source_faces(Index face) const;
   /// Flips edges out of the way of the plane, from a face that it crosses. Faces that this makes
   /// are appended to `faces_`.
   void turn_edges_at(Index face);
