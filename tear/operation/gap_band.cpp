@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "core/internal/ordered.h"
@@ -274,10 +275,10 @@ void GapBand::remove(std::span<const PlaneSide> cell, std::span<const Side> side
   CellSides with_walls(cell, work.editor, work.posed);
   ScratchVector<CellFace> faces = faces_to_remove(with_walls, gap);
   const bool had_walls = remove_walls_in_gap(cell, faces, *gap.plane, work);
-  CellSides without(cell, work.editor, work.posed);
-  if (had_walls) faces = faces_to_remove(without, gap);
+  std::optional<CellSides> without;
+  if (had_walls) faces = faces_to_remove(without.emplace(cell, work.editor, work.posed), gap);
   const GapRemoval removal =
-      remove_cell(had_walls ? without : with_walls, faces, work.editor, &rim);
+      remove_cell(had_walls ? *without : with_walls, faces, work.editor, &rim);
   add_rim_points(rim, sides, *gap.plane, outcome);
   outcome.report.faces_crossed += removal.faces_crossed;
   outcome.report.blocked += removal.blocked;

@@ -147,10 +147,17 @@ class WallsInGap {
   ScratchVector<PointEdge> lips_;  ///< By their ends, because splits rename half-edges.
 };
 
+bool has_fillings(const SurfaceEditor& editor) {
+  for (Index mesh = 0; mesh < editor.character().meshes.size(); ++mesh)
+    if (!editor.fillings.of(mesh).empty()) return true;
+  return false;
+}
+
 }  // namespace
 
 bool remove_walls_in_gap(std::span<const PlaneSide> cell, std::span<const CellFace> faces,
                          const BladePlane& plane, const Workpiece& work) {
+  if (!has_fillings(work.editor)) return false;
   WallsInGap walls(cell, plane, work);
   if (!walls.find_lips(faces)) return false;
   walls.remove();

@@ -56,6 +56,15 @@ class CellSides {
     const Index* points = &editor_.surface().corner_point[3 * face];
     return {place_of(points[0]), place_of(points[1]), place_of(points[2])};
   }
+  /// The numbers of the corners of the face across edge k of a face.
+  [[nodiscard]] Places places_beyond(const Places& places, Index k, Index twin) {
+    Places beyond;
+    beyond[twin % 3] = places[(k + 1) % 3];
+    beyond[Surface::next(twin) % 3] = places[k];
+    const Index third = Surface::previous(twin);
+    beyond[third % 3] = place_of(editor_.surface().corner_point[third]);
+    return beyond;
+  }
   [[nodiscard]] OfFace at(const Places& places) const {
     OfFace of{};
     for (std::size_t k = 0; k < 3; ++k) {

@@ -12,12 +12,22 @@
 namespace sunder::tear {
 namespace {
 
-using Corners = std::array<Vec3d, 3>;
 using Word = CellSides::Word;
 
+/// References to the posed corners of a face: copies would be read before they are stored.
+struct Corners {
+  const Vec3d &a, &b, &c;
+
+  [[nodiscard]] Vec3d area() const { return 0.5 * (b - a).cross(c - a); }
+  [[nodiscard]] Vec3d middle() const { return (a + b + c) / 3; }
+};
+
+/// All points must be covered.
 Corners posed_corners(Index face, CellSides& sides) {
   const Index* points = &sides.editor().surface().corner_point[3 * face];
-  const auto at = [&](Index point) { return sides.posed().position(sides.editor(), point); };
+  const auto at = [&](Index point) -> const Vec3d& {
+    return sides.posed().position(sides.editor(), point);
+  };
   return {at(points[0]), at(points[1]), at(points[2])};
 }
 
@@ -121,11 +131,13 @@ class FacesInside {
     const Index first = editor.stage.first_triangle(), end = editor.surface().triangle_count();
     inside.reserve(faces_.size() + (end - first));
     areas.reserve(faces_.size() + (end - first));
+    sides_.posed().cover(editor.surface().point_count());
     double area = 0;
     const auto add = [&](Index face, const Corners& corners) {
+      const Vec3d of_face = corners.area();
       inside.push_back(face);
-      areas.push_back(0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]));
-      area += norm(areas.back());
+      areas.push_back(of_face);
+      area += norm(of_face);
     };
     const auto add_if_inside = [&](Index face, const CellSides::OfFace& of) {
       if (sides_.is_beyond(of)) return;
@@ -141,9 +153,13 @@ class FacesInside {
       crossed_.insert(face, i);
       add_if_inside(face, sides_.at(faces_[i].places));
     }
+    Index of_ancestor = kNone, ancestor = kNone;  // most children follow one another
     for (Index t = first; t < end; ++t) {
-      const Index ancestor = crossed_.find(editor.stage.ancestor(t));
-      if (ancestor != kNone) add_if_inside(t, sides_.at(faces_[ancestor].places));
+      if (ancestor != editor.stage.ancestor(t)) {
+        ancestor = editor.stage.ancestor(t);
+        of_ancestor = crossed_.find(ancestor);
+      }
+      if (of_ancestor != kNone) add_if_inside(t, sides_.at(faces_[of_ancestor].places));
     }
     return area;
   }
@@ -151,7 +167,7 @@ class FacesInside {
  private:
   [[nodiscard]] bool has_middle_inside(const Corners& corners,
                                        const CellSides::OfFace& ancestor) const {
-    const Vec3d middle = (corners[0] + corners[1] + corners[2]) / 3;
+    const Vec3d middle = corners.middle();
     bool is_inside = true;
     for (Index w = 0; w < sides_.word_count() && is_inside; ++w)
       CellSides::for_each_bit(doubtful(ancestor, w) & sides_.all(w), w, [&](Index side) {
@@ -208,7 +224,7 @@ bool is_face_in_cell(CellFace& face, CellSides& sides) {
   for (Index w = 0; w < sides.word_count(); ++w)
     CellSides::for_each_bit(of.doubtful(w) & sides.all(w), w, [&](Index number) {
       if (!is_in) return;
-      if (polygon.corners.empty()) polygon.corners.assign(corners.begin(), corners.end());
+      if (polygon.corners.empty()) polygon.corners.assign({corners.a, corners.b, corners.c});
       polygon.clip(sides.cell()[number]);
       is_in = polygon.corners.size() >= 3;
     });

@@ -81,6 +81,7 @@ ScratchVector<CellFace> faces_in_cell(CellSides& sides, std::span<const Index> s
                                       IsWanted is_wanted) {
   const Surface& surface = sides.editor().surface();
   ScratchVector<CellFace> faces(&sides.memory());
+  faces.reserve(4 * seeds.size());
   IndexMap seen(4 * seeds.size(), sides.memory());
   const auto visit = [&](const CellFace& face) {
     if (is_wanted(face)) faces.push_back(face);
@@ -98,7 +99,7 @@ ScratchVector<CellFace> faces_in_cell(CellSides& sides, std::span<const Index> s
         continue;
       seen.insert(twin / 3, 0);
       sides.editor().fetch(twin / 3);
-      const CellSides::Places places = sides.places_of(twin / 3);
+      const CellSides::Places places = sides.places_beyond(face.places, k, twin);
       visit({twin / 3, places, sides.is_surely_inside(sides.at(places))});
     }
   }

@@ -91,20 +91,24 @@ class Children {
   Index first_;
   IndexMap newest_;             ///< Per face: index in lists_.
   ScratchVector<Index> older_;  ///< Per new triangle: the child of the same face before it.
-  ScratchVector<Index> lists_{&editor_.scratch()};  ///< Per list: its newest child.
+  ScratchVector<Index> lists_{&editor_.scratch()};       ///< Per list: its newest child.
+  Index newest_ancestor_ = kNone, newest_list_ = kNone;  ///< Of the last triangle.
 };
 
 std::span<const std::array<Index, 2>> Children::of(Index face,
                                                    ScratchVector<std::array<Index, 2>>& list) {
   const Index end = editor_.surface().triangle_count();
   for (Index t = first_ + static_cast<Index>(older_.size()); t < end; ++t) {
-    const auto fresh = static_cast<Index>(lists_.size());
-    const Index known = newest_.insert(editor_.stage.ancestor(t), fresh);
-    older_.push_back(known == kNone ? kNone : lists_[known]);
-    if (known == kNone)
-      lists_.push_back(t);
-    else
-      lists_[known] = t;
+    const Index ancestor = editor_.stage.ancestor(t);
+    if (ancestor != newest_ancestor_) {  // most children follow one another
+      newest_ancestor_ = ancestor;
+      const auto fresh = static_cast<Index>(lists_.size());
+      const Index known = newest_.insert(ancestor, fresh);
+      newest_list_ = known == kNone ? fresh : known;
+      if (known == kNone) lists_.push_back(kNone);
+    }
+    older_.push_back(lists_[newest_list_]);
+    lists_[newest_list_] = t;
   }
   list.clear();
   const Index known = newest_.find(face);

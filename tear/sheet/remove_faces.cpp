@@ -45,8 +45,16 @@ void separate(std::span<const Fan> fans, SurfaceEditor& editor, PosedPoints& pos
 
 RemovedFaces::RemovedFaces(std::span<const Index> faces, const SurfaceEditor& editor,
                            DisjointSets* connected)
-    : faces_(faces), number_(faces.size(), editor.scratch()), border_(&editor.scratch()) {
-  for (Index i = 0; i < faces.size(); ++i) number_.insert(faces[i], i);
+    : faces_(faces),
+      number_(faces.size(), editor.scratch()),
+      first_newest_(editor.stage.first_triangle()),
+      of_newest_(editor.surface().triangle_count() - first_newest_, kNone, &editor.scratch()),
+      border_(&editor.scratch()) {
+  for (Index i = 0; i < faces.size(); ++i)
+    if (faces[i] < first_newest_)
+      number_.insert(faces[i], i);
+    else
+      of_newest_[faces[i] - first_newest_] = i;
   const Surface& surface = editor.surface();
   // Edges at the border cannot be predicted, so nothing branches there.
   border_.resize(3 * faces.size());

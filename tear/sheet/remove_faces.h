@@ -25,7 +25,9 @@ class RemovedFaces {
                DisjointSets* connected = nullptr);
 
   /// Index of a face among the removed faces; kNone if it remains.
-  [[nodiscard]] Index find(Index face) const { return number_.find(face); }
+  [[nodiscard]] Index find(Index face) const {
+    return face < first_newest_ ? number_.find(face) : of_newest_[face - first_newest_];
+  }
   /// In the order of the removed faces.
   [[nodiscard]] std::span<const BorderEdge> border() const { return border_; }
 
@@ -37,6 +39,8 @@ class RemovedFaces {
 
   std::span<const Index> faces_;
   IndexMap number_;
+  Index first_newest_;              ///< Of the stage.
+  ScratchVector<Index> of_newest_;  ///< The same per triangle of the stage.
   ScratchVector<BorderEdge> border_;
 };
 

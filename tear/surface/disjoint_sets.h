@@ -27,6 +27,7 @@ class DisjointSets {
   }
   /// The lesser root stays a root.
   void unite_with_lesser(Index i, Index j) {
+    if (parent_[i] == parent_[j]) return;  // mostly
     const Index a = find(i), b = find(j);
     parent_[a < b ? b : a] = a < b ? a : b;
   }

@@ -35,7 +35,7 @@ void improve_faces(const EditLog::Mark& since, SurfaceEditor& editor) {
   open.reserve(3 * editor.log.numbers_since(since));
   // Each edge once, from the later of its faces if both changed.
   const auto add = [&](Index face) {
-    if (editor.origins.is_settled(face)) return;
+    if (surface.corner_point[3 * face] == kNone || editor.origins.is_settled(face)) return;
     for (Index h = 3 * face; h < 3 * face + 3; ++h)
       if (editor.origins.is_inner_edge(h) &&
           (surface.twin[h] < h || editor.log.number_since(since, surface.twin[h] / 3) == kNone))
