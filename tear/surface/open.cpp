@@ -12,16 +12,18 @@ namespace {
 /// The corners at the end points of the edges, in the faces right and left of them.
 class CornersAtPoints {
  public:
-  CornersAtPoints(std::size_t edge_count, ScratchMemory& scratch)
-      : corners_(&scratch), mentions_(&scratch) {
+  CornersAtPoints(std::size_t edge_count, const Surface& surface, ScratchMemory& scratch)
+      : surface_(surface), corners_(&scratch), mentions_(&scratch) {
     corners_.reserve(4 * edge_count);
     mentions_.reserve(4 * edge_count);
   }
 
+  /// Adds the corners by the points that they have now: where a path passes a point again, one of
+  /// them may have another point already.
   /// @param joint  the position of the point on the path.
-  void add(Index point, std::size_t joint, Index right, Index left) {
-    mention(point, joint, 0, right);
-    mention(point, joint, kLeft, left);
+  void add(std::size_t joint, Index right, Index left) {
+    mention(joint, 0, right);
+    mention(joint, kLeft, left);
   }
 
   /// Calls visit(point, first joint, corners) by ascending points. Corners right of the edges come
@@ -50,12 +52,14 @@ class CornersAtPoints {
   struct Mention {
     Index corner, joint;
   };
-  void mention(Index point, std::size_t joint, Index side, Index corner) {
+  void mention(std::size_t joint, Index side, Index corner) {
     if (corner == kNone) return;
-    mentions_.push_back(std::uint64_t{point} << 32 | (side | static_cast<Index>(corners_.size())));
+    const std::uint64_t point = surface_.corner_point[corner];
+    mentions_.push_back(point << 32 | (side | static_cast<Index>(corners_.size())));
     corners_.push_back({corner, static_cast<Index>(joint)});
   }
 
+  const Surface& surface_;
   ScratchVector<Mention> corners_;
   ScratchVector<std::uint64_t> mentions_;  ///< Point, side and index in corners_, as one number.
 };
@@ -206,12 +210,11 @@ void open_edges(std::span<const PointEdge> edges, std::span<const Index> half_ed
     opened.push_back({static_cast<Index>(i), {made, point}});
   }
 
-  CornersAtPoints corners(edges.size(), editor.scratch());
+  CornersAtPoints corners(edges.size(), surface, editor.scratch());
   for (std::size_t i = 0; i < edges.size(); ++i) {
-    const auto& [from, to] = edges[i];
     const auto& [left, right] = sides[i];
-    if (!is_open[i]) corners.add(from, i, right == kNone ? kNone : Surface::next(right), left);
-    if (!is_open[i + 1]) corners.add(to, i + 1, right, left == kNone ? kNone : Surface::next(left));
+    if (!is_open[i]) corners.add(i, right == kNone ? kNone : Surface::next(right), left);
+    if (!is_open[i + 1]) corners.add(i + 1, right, left == kNone ? kNone : Surface::next(left));
   }
   FansAtPoint fans(surface, editor.scratch());
   corners.for_each_point([&](Index at, Index joint, std::span<const Index> of_point) {
