@@ -201,9 +201,9 @@ class Imprint {
         Index h = editor_.surface().find_half_edge(last, to);
         Index point = kNone;
         if (h != kNone) {
-          point = tear::split_edge(h, fraction, editor_);
+          point = tear::split_edge(h, fraction, editor_, Rounding::as_fits);
         } else if (h = editor_.surface().find_half_edge(to, last); h != kNone) {
-          point = tear::split_edge(h, 1 - fraction, editor_);
+          point = tear::split_edge(h, 1 - fraction, editor_, Rounding::as_fits);
         }
         if (point == kNone) {
           // The faces are too small for another point. An end nearby is used instead; one that is

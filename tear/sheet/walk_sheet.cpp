@@ -13,6 +13,15 @@
 #include "tear/surface/flip_edge.h"
 
 namespace sunder::tear {
+namespace {
+
+double squared_height(const Place& a, const Place& b, const Place& c) {
+  const Place ab = way(a, b), ac = way(a, c), bc = way(b, c), area = normal(a, b, c);
+  const double longest = std::max({dot(ab, ab), dot(ac, ac), dot(bc, bc)});
+  return longest > 0 ? dot(area, area) / longest : 0.0;
+}
+
+}  // namespace
 
 SheetWalk::SheetWalk(const PlaneSide& plane, SurfaceEditor& editor, PosedPoints& posed)
     : plane_(plane),
@@ -102,8 +111,28 @@ void SheetWalk::turn_edges_at(Index face) {
 }
 
 bool SheetWalk::turn_edge(Index half_edge) {
-  return editor_.origins.is_inner_edge(half_edge) ? flip_edge(half_edge, editor_)
-                                                  : turn_cap_edge(half_edge, kWorseCapShapeFactor);
+  if (!editor_.origins.is_inner_edge(half_edge))
+    return turn_cap_edge(half_edge, kWorseCapShapeFactor);
+  return !makes_needle(half_edge) && flip_edge(half_edge, editor_);
+}
+
+/// The points of a lip that an older plane left lie on one line: their edges to points within the
+/// surface have to stay, or nothing splits the face between them.
+bool SheetWalk::makes_needle(Index half_edge) const {
+  const Surface& surface = editor_.surface();
+  const Index mesh = surface.triangle(half_edge / 3).mesh, twin = surface.twin[half_edge];
+  float largest = 0;
+  const auto place = [&](Index corner) {
+    const Vec3f& position = editor_.births.position(mesh, editor_.vertex_at(corner));
+    largest = std::max(largest, position.cwiseAbs().maxCoeff());
+    return place_of(position);
+  };
+  const Place a = place(half_edge), b = place(twin), c = place(Surface::previous(half_edge)),
+              d = place(Surface::previous(twin));
+  const double stored = kStoredCoordinates * static_cast<double>(largest);
+  const double after = std::min(squared_height(a, d, c), squared_height(b, c, d));
+  return after < stored * stored &&
+         after < std::min(squared_height(a, b, c), squared_height(b, a, d));
 }
 
 bool SheetWalk::turn_cap_edge(Index half_edge, double least_shape_factor) {

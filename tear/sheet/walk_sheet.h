@@ -50,6 +50,9 @@ class SheetWalk {
   /// are appended to `faces_`.
   void turn_edges_at(Index face);
   bool turn_edge(Index half_edge);
+  /// Whether turning an edge would leave a face so thin that stored positions cannot tell it from a
+  /// line, in place of wider ones.
+  [[nodiscard]] bool makes_needle(Index half_edge) const;
   bool turn_cap_edge(Index half_edge, double least_shape_factor);
   /// Flips the longest edge of a face of a cap that is nearly a line.
   void turn_needle(Index face);

@@ -1,6 +1,8 @@
 #include "tear/surface/line_splitter.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "tear/geometry/face_shape.h"
 #include "tear/geometry/tolerances.h"
@@ -8,15 +10,20 @@
 #include "tear/surface/mesh_vertices.h"
 
 namespace sunder::tear {
+namespace {
 
-Index LineSplitter::begin(Index half_edge, double fraction) {
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+}  // namespace
+
+Index LineSplitter::begin(Index half_edge, double fraction, Rounding rounding) {
   const FaceSplit behind(editor_, half_edge / 3);
   make_room(behind, half_edge, 1);
   NewPoint& made = points_[newest_];
   append_vertices(behind, half_edge, fraction, made);
-  const bool is_sound = made.is_sound && behind.keeps_winding(half_edge % 3, made.of_behind) &&
-                        behind.keeps_winding(Surface::next(half_edge) % 3, made.of_behind);
-  if (!is_sound) {
+  const bool is_kept = is_sound(behind, half_edge, made) ||
+                       (rounding == Rounding::as_fits && round_aside(behind, half_edge, made));
+  if (!is_kept) {
     remove_vertices(made);
     return kNone;
   }
@@ -125,6 +132,35 @@ void LineSplitter::append_vertices(const FaceSplit& behind, Index half_edge, dou
   }
   made.is_sound = ahead.keeps_winding(at_begin % 3, made.of_ahead) &&
                   ahead.keeps_winding(at_end % 3, made.of_ahead);
+}
+
+bool LineSplitter::is_sound(const FaceSplit& behind, Index half_edge, const NewPoint& made) {
+  return made.is_sound && behind.keeps_winding(half_edge % 3, made.of_behind) &&
+         behind.keeps_winding(Surface::next(half_edge) % 3, made.of_behind);
+}
+
+bool LineSplitter::round_aside(const FaceSplit& behind, Index half_edge, NewPoint& made) {
+  Vec3f& stored = editor_.mutable_mesh(made.mesh).positions[made.of_behind.vertex];
+  const Vec3f nearest = stored;
+  const auto place = [&](Index number) {
+    Vec3f at = nearest;
+    for (Index k = 0; k < 3; ++k, number /= 3)
+      if (number % 3 != 0) at[k] = std::nextafter(at[k], number % 3 == 1 ? -kInfinity : kInfinity);
+    return at;
+  };
+  constexpr Index kPlaces = 27;
+  for (Index number = 1; number < kPlaces; ++number) {
+    made.of_behind.at = made.of_ahead.at = place_of(place(number));
+    if (made.face_ahead)
+      made.is_sound = made.face_ahead->keeps_winding(made.ahead % 3, made.of_ahead) &&
+                      made.face_ahead->keeps_winding(Surface::next(made.ahead) % 3, made.of_ahead);
+    if (!is_sound(behind, half_edge, made)) continue;
+    stored = place(number);
+    if (made.is_two_vertices())
+      editor_.mutable_mesh(made.face_ahead->mesh()).positions[made.of_ahead.vertex] = stored;
+    return true;
+  }
+  return false;
 }
 
 void LineSplitter::remove_vertices(const NewPoint& made) {

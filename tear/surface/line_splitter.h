@@ -7,6 +7,12 @@
 
 namespace sunder::tear {
 
+/// How the position of a new point is stored.
+enum class Rounding : std::uint8_t {
+  nearest,
+  as_fits,  ///< One unit in the last place aside where the faces would turn over otherwise.
+};
+
 /// Splits faces one after the other along a line across the surface, with a new point wherever it
 /// meets an edge. Between begin() and end() the face ahead is still whole and not joined to the
 /// faces behind it, so nothing else may change the surface.
@@ -18,7 +24,8 @@ class LineSplitter {
   /// face in two.
   /// @return the point; kNone if that face or the one ahead would lose its area or turn over, and
   /// nothing was changed.
-  [[nodiscard]] Index begin(Index half_edge, double fraction);
+  [[nodiscard]] Index begin(Index half_edge, double fraction,
+                            Rounding rounding = Rounding::nearest);
   /// Puts a point on another edge of the face ahead, and splits that face in three, along the
   /// diagonal that makes the better faces. @return as begin().
   [[nodiscard]] Index go_on(Index half_edge, double fraction);
@@ -67,6 +74,12 @@ class LineSplitter {
   /// Makes room for a point and its vertices, for `triangles`, and for those that end() makes.
   void make_room(const FaceSplit& behind, Index half_edge, Index triangles);
   void append_vertices(const FaceSplit& behind, Index half_edge, double fraction, NewPoint& made);
+  /// Whether the faces on both sides of a half-edge can be split at a point.
+  [[nodiscard]] static bool is_sound(const FaceSplit& behind, Index half_edge,
+                                     const NewPoint& made);
+  /// Moves a point aside by one unit in the last place of a coordinate or several, so that the
+  /// faces keep their winding. @return false if no such place does.
+  bool round_aside(const FaceSplit& behind, Index half_edge, NewPoint& made);
   void remove_vertices(const NewPoint& made);
   void append_point(NewPoint& made);
   /// Appends a triangle that is split from another one. @return its first half-edge.

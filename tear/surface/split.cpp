@@ -5,9 +5,9 @@
 
 namespace sunder::tear {
 
-Index split_edge(Index half_edge, double fraction, SurfaceEditor& editor) {
+Index split_edge(Index half_edge, double fraction, SurfaceEditor& editor, Rounding rounding) {
   LineSplitter splitter(editor);
-  const Index point = splitter.begin(half_edge, fraction);
+  const Index point = splitter.begin(half_edge, fraction, rounding);
   if (point != kNone) splitter.end();
   return point;
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "tear/surface/surface_editor.h"
+#include "tear/surface/line_splitter.h"
 
 namespace sunder::tear {
 
@@ -9,7 +9,8 @@ namespace sunder::tear {
 /// Puts a new point on an edge, `fraction` of the way along the half-edge, and splits the faces on
 /// both sides of it.
 /// @return the point; kNone if a face would lose its area or turn over; then nothing is changed.
-[[nodiscard]] Index split_edge(Index half_edge, double fraction, SurfaceEditor& editor);
+[[nodiscard]] Index split_edge(Index half_edge, double fraction, SurfaceEditor& editor,
+                               Rounding rounding = Rounding::nearest);
 
 /// Puts a new point into a triangle and splits it in three. @param barycentric  of its corners, all
 /// > 0.

@@ -167,5 +167,14 @@ TEST(Caps, that_are_cut_again_do_not_multiply) {
   }
 }
 
+/// Later planes cross faces that are thinner than stored positions can tell: corners of older caps
+/// lie on one line.
+TEST(Caps, of_faces_whose_corners_lie_on_one_line_are_cut) {
+  for (const std::uint64_t seed : {32, 33, 49, 88, 160, 226, 254}) {
+    SCOPED_TRACE(seed);
+    expect_few_faces(seed, 90000);
+  }
+}
+
 }  // namespace
 }  // namespace sunder
