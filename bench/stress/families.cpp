@@ -24,6 +24,7 @@ constexpr std::array kFamilies = {
            winding_strokes},
     Family{"ends", "tears that end in faces, on edges, in vertices, on tips and on older tears",
            true, 60, strokes_that_end_anywhere},
+    Family{"turns", "blades that turn about a far point and step back", true, 60, far_turns},
     Family{"long", "strokes of thousands of blades", true, 1, long_strokes},
     Family{"tiny", "strokes and bores smaller than a face", true, 40, tiny_strokes},
     Family{"cuts", "300 cuts one after another", false, 1, many_cuts},

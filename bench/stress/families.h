@@ -33,7 +33,7 @@ CaseFunction random_operations, hard_operations, scaled_and_shifted, hard_poses;
 // Planes that meet vertices and edges, and one another (plane_cases.cpp).
 CaseFunction planes_at_vertices, plane_bundles, plane_stacks;
 // Strokes that turn, return and end at difficult places (stroke_cases.cpp).
-CaseFunction winding_strokes, strokes_that_end_anywhere, long_strokes, tiny_strokes;
+CaseFunction winding_strokes, strokes_that_end_anywhere, far_turns, long_strokes, tiny_strokes;
 // Long sequences (sequence_cases.cpp).
 CaseFunction many_cuts, one_region;
 // Limits of memory and size (limit_cases.cpp).

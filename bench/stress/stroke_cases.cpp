@@ -122,6 +122,24 @@ void strokes_that_end_anywhere(std::uint64_t seed, const Steps& steps, CaseRepor
   });
 }
 
+void far_turns(std::uint64_t seed, const Steps& steps, CaseReport& report) {
+  Random random = random_of(seed, 0);
+  TornSubject subject(random.index(2) == 0 ? test::make_sheet(1 + random.index(16))
+                                           : test::random_character(random),
+                      report);
+  run_steps(subject, seed, steps, 5, [](TornSubject& of, Random& numbers, std::uint32_t) {
+    const ModelPose pose = numbers.index(2) == 0 ? *bind_pose(of.model().source())
+                                                 : test::random_pose(of.model().source(), numbers);
+    const test::Target target = test::target_of(of.model().character(), pose);
+    if (target.faces.empty()) return;
+    TearOperation tear;
+    tear.pose = pose;
+    tear.stroke = test::far_turn(target, numbers);
+    if (numbers.index(3) == 0) tear.options = test::hard_options(target, numbers);
+    perform(of, tear, numbers);
+  });
+}
+
 void long_strokes(std::uint64_t seed, const Steps& steps, CaseReport& report) {
   Random random = random_of(seed, 0);
   TornSubject subject(test::make_sheet(8 + random.index(24)), report);

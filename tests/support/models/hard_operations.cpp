@@ -108,6 +108,43 @@ Stroke hard_stroke(const Target& target, Random& random) {
   return stroke;
 }
 
+Stroke far_turn(const Target& target, Random& random) {
+  constexpr double kDegree = 0.017453292519943295;
+  const auto& face = one_of(target.faces, random);
+  const Vec3d place = place_on(target, random);
+  Vec3d up = (face[1] - face[0]).cross(face[2] - face[0]);
+  up = up.norm() > 1e-12 * target.size * target.size ? Vec3d(up / up.norm()) : random.direction();
+  if (random.index(3) == 0) up = (up + 0.3 * random.direction()).normalized();
+  Vec3d along = up.cross(direction_at(target, random));
+  if (!(along.norm() > 1e-3)) along = up.unitOrthogonal();
+  along.normalize();
+  const Vec3d aside = up.cross(along);
+  const double turn = random.uniform(30, 170) * kDegree, radius = any_scale(random, 10, 1000),
+               extent = any_scale(random, 1e-2, 1) * target.size;
+  const double length = extent / (2 * radius * std::sin(0.5 * turn));
+  // The lines of the blades meet above the surface or below it.
+  const double side = random.index(2) == 0 ? 1 : -1;
+  // Blades that lean aside too turn out of the plane in which they go.
+  const Vec3d lean = random.index(2) == 0 ? Vec3d::Zero() : Vec3d(random.uniform(-1, 1) * aside);
+  const double drift = random.index(2) == 0 ? 0.0 : random.uniform(-0.3, 0.3) * extent;
+  Stroke stroke;
+  double angle = -0.5 * turn;
+  const std::uint32_t steps = 2 + random.index(5);
+  for (std::uint32_t n = 0; n <= steps + 2; ++n) {
+    const Vec3d down =
+        (std::cos(angle) * -up + side * std::sin(angle) * along + lean).normalized() * length;
+    const Vec3d at =
+        place + radius * length * std::sin(angle) * along + drift * angle / turn * aside;
+    const double above = random.uniform(0.1, 0.9);
+    stroke.push_back({at - above * down, at + (1 - above) * down});
+    // Neighbours differ by less than 90 degrees.
+    const double step = std::min(turn * random.uniform(0.1, 1.2), 85 * kDegree);
+    const bool is_back = stroke.size() > 1 && random.index(3) == 0;
+    angle = std::clamp(angle + (is_back ? -0.7 * step : step), -0.5 * turn, 0.5 * turn);
+  }
+  return stroke;
+}
+
 TearOptions hard_options(const Target& target, Random& random) {
   TearOptions options;
   if (random.index(2) == 0) options.width = any_scale(random, 1e-6, 2) * target.size;

@@ -30,6 +30,9 @@ Vec3d place_on(const Target& target, Random& random);
 /// Along the axes, along an edge, across a face, or anywhere. Of length 1.
 Vec3d direction_at(const Target& target, Random& random);
 Stroke hard_stroke(const Target& target, Random& random);
+/// Blades that turn by 30 to 170 degrees about a point that is 10 to 1,000 of their lengths away,
+/// and step back now and then. The swept surface is much longer than the blades.
+Stroke far_turn(const Target& target, Random& random);
 TearOptions hard_options(const Target& target, Random& random);
 /// In a face or nearly so, through vertices and along edges.
 PlaneCut hard_cut(const Target& target, Random& random);
