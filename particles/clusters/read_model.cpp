@@ -54,6 +54,7 @@ void read_model(const TornModel& model, const ModelPose& pose, Structure& struct
   link.source = &model.source();
   link.skins = character.skins;
   link.decomposition_pose = DecompositionPose(character, pose);
+  link.border = SourceBorder(model);
   link.first_slots.assign(1, 0);
   for (const Skin& skin : link.skins)
     link.first_slots.push_back(link.first_slots.back() + static_cast<Index>(skin.bones.size()));

@@ -6,6 +6,7 @@
 #include "particles/clusters/change_journal.h"
 #include "particles/clusters/decomposition_pose.h"
 #include "particles/clusters/repair_scratch.h"
+#include "particles/clusters/source_border.h"
 #include "particles/clusters/surface_pose.h"
 #include "particles/clusters/vertex_points.h"
 
@@ -22,6 +23,7 @@ struct CharacterLink {
   float edge_length = 0;  ///< Mean length of the edges of the decomposition's surface, metres.
   DecompositionPose decomposition_pose;
   std::vector<Index> first_slots;  ///< SurfacePose::first_slots() of the skins.
+  SourceBorder border;
 };
 
 /// The members of all particles.

@@ -65,7 +65,10 @@ class LipEdges {
   }
 
   /// Stores a border half-edge as an edge of a lip, in place of the edge that left its first point.
+  /// A tear that leaves a border of the source and comes in again leaves a part of it between two
+  /// points of its lips.
   void keep(Index half_edge) {
+    if (edit_.structure().character.border.has(half_edge, edit_.model())) return;
     const Index a = surface_.corner_point[half_edge],
                 b = surface_.corner_point[Surface::next(half_edge)];
     LipPoint& lip = points_.lip_points[a];

@@ -559,20 +559,43 @@ TEST(Settle, leaves_no_particle_in_two_pieces) {
   }
 }
 
+void expect_lips_of_a_tear(std::uint64_t seed) {
+  SCOPED_TRACE(seed);
+  Random random(seed);
+  Followed followed(seed % 2 == 0 ? test::make_sheet(8 + random.index(12))
+                                  : test::make_tube(10, 8 + random.index(12), 3),
+                    0.2);
+  const TearOperation tear = test::random_tear(followed.model, random, false);
+  ASSERT_NO_FATAL_FAILURE(followed.play(tear));
+  ASSERT_THAT(test::broken_lip_edges(followed.model, followed.set), IsEmpty());
+  if (followed.model.undo_count() == 0) return;
+  ASSERT_TRUE(followed.model.undo());
+  ASSERT_TRUE(followed.set.follow(followed.model, {}));
+  EXPECT_TRUE(followed.set.lips().empty());
+}
+
 TEST(Lips, are_the_borders_that_an_operation_made) {
-  for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(test::stressed(60, 20)); ++seed) {
+  for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(test::stressed(60, 20)); ++seed)
+    ASSERT_NO_FATAL_FAILURE(expect_lips_of_a_tear(seed));
+}
+
+/// Through the edge by which it left.
+TEST(Lips, are_not_the_border_where_a_tear_comes_in_again) { expect_lips_of_a_tear(642); }
+
+TEST(Lips, are_not_the_border_between_parts_of_a_stroke) {
+  for (int seed = 0; seed < test::stressed(40, 20); ++seed) {
     SCOPED_TRACE(seed);
-    Random random(seed);
-    Followed followed(seed % 2 == 0 ? test::make_sheet(8 + random.index(12))
-                                    : test::make_tube(10, 8 + random.index(12), 3),
-                      0.2);
-    const TearOperation tear = test::random_tear(followed.model, random, false);
+    Random random(static_cast<std::uint64_t>(seed));
+    Followed followed(test::make_sheet(2 + random.index(12)), 0.2);
+    TearOperation tear;
+    tear.pose = *bind_pose(followed.model.source());
+    for (int k = 0; k < 8; ++k)  // in and out of one side
+      tear.stroke.push_back(
+          test::down_at(0.1 + 0.1 * k, (k % 2 == 0 ? 1 : -1) * random.uniform(0.02, 0.2)));
+    if (random.index(2) == 0) tear.options.width = random.uniform(0.001, 0.03);
     ASSERT_NO_FATAL_FAILURE(followed.play(tear));
+    ASSERT_FALSE(followed.set.lips().empty());
     ASSERT_THAT(test::broken_lip_edges(followed.model, followed.set), IsEmpty());
-    if (followed.model.undo_count() == 0) continue;
-    ASSERT_TRUE(followed.model.undo());
-    ASSERT_TRUE(followed.set.follow(followed.model, {}));
-    EXPECT_TRUE(followed.set.lips().empty());
   }
 }
 
