@@ -158,10 +158,10 @@ void check_border(const ParticleSet& set, std::uint32_t p, const ParticleNeighbo
                          neighbour.edges, " edges and ", neighbour.across.transpose(), ", not ",
                          sum.edges, " and ", sum.across.transpose()));
   // Not more than the border's length by the straight path, nor less than nothing.
-  const double most = neighbour.across.norm() / between.norm();
-  if (!(neighbour.coupling >= 0 && neighbour.coupling <= most * (1 + 1e-9)))
+  const double length = neighbour.across.norm();
+  if (!(neighbour.coupling >= 0 && neighbour.coupling * between.norm() <= length * (1 + 1e-9)))
     faults.push_back(say("the coupling of particles ", p, " and ", neighbour.particle, " is ",
-                         neighbour.coupling, ", more than ", most));
+                         neighbour.coupling, ", more than ", length, " / ", between.norm()));
 }
 
 void check_particle(const ParticleSet& set, std::uint32_t p, const Sums& sums,
