@@ -121,7 +121,7 @@ Stroke far_turn(const Target& target, Random& random) {
   const Vec3d aside = up.cross(along);
   const double turn = random.uniform(30, 170) * kDegree, radius = any_scale(random, 10, 1000),
                extent = any_scale(random, 1e-2, 1) * target.size;
-  const double length = extent / (2 * radius * std::sin(0.5 * turn));
+  const double length = extent / (2 * radius * std::tan(0.5 * turn));
   // The lines of the blades meet above the surface or below it.
   const double side = random.index(2) == 0 ? 1 : -1;
   // Blades that lean aside too turn out of the plane in which they go.
@@ -134,7 +134,7 @@ Stroke far_turn(const Target& target, Random& random) {
     const Vec3d down =
         (std::cos(angle) * -up + side * std::sin(angle) * along + lean).normalized() * length;
     const Vec3d at =
-        place + radius * length * std::sin(angle) * along + drift * angle / turn * aside;
+        place + radius * length * std::tan(angle) * along + drift * angle / turn * aside;
     const double above = random.uniform(0.1, 0.9);
     stroke.push_back({at - above * down, at + (1 - above) * down});
     // Neighbours differ by less than 90 degrees.
