@@ -39,11 +39,19 @@ struct EdgePart {
 class CrackMatch {
  public:
   CrackMatch(const EditLog::Mark& since, const Workpiece& work)
-      : since_(since), work_(work), points_(&work.editor.scratch()) {}
+      : since_(since),
+        work_(work),
+        points_(&work.editor.scratch()),
+        older_vertices_(&work.editor.scratch()) {
+    const std::span<const RowCounts> rows = work.editor.log.mesh_rows_since(since);
+    for (std::size_t m = 0; m < rows.size(); ++m)
+      older_vertices_.push_back(work.editor.character().meshes[m].vertex_count() -
+                                rows[m][Rows::mesh_vertices]);
+  }
 
   Index run() {
     for (Index p = since_.points; p < surface().point_count(); ++p)
-      if (const auto place = place_of(p))
+      if (const auto place = place_of(p); place && !is_older(surface().point_corner[p]))
         if (const Index across = surface().across_crack(place->half_edge); across != kNone)
           points_.push_back({p, *place, across});
     for (const CrackPoint& of : points_)
@@ -68,6 +76,12 @@ class CrackMatch {
   }
   [[nodiscard]] Vec3d bind_of_point(Index point) const {
     return bind(surface().point_corner[point]);
+  }
+  /// Whether the place of a point was made before: the other lip may still have that point.
+  [[nodiscard]] bool is_older(Index corner) const {
+    const VertexRef original = work_.editor.births.original(surface().triangle(corner / 3).mesh,
+                                                            work_.editor.vertex_at(corner));
+    return original.vertex < older_vertices_[original.mesh];
   }
   /// Positions that are nearer to one another are stored as one, or nearly so.
   [[nodiscard]] bool is_same_place(const Vec3d& a, const Vec3d& b) const {
@@ -128,7 +142,7 @@ class CrackMatch {
   void take_position(const CrackPoint& of, bool only_if_older) {
     const Index partner = end_at(part_across(of), of.point);
     if (partner == kNone) return;
-    if (only_if_older && surface().corner_point[partner] >= since_.points) return;
+    if (only_if_older && !is_older(partner)) return;
     const Vec3f before = bind_of_point(of.point).cast<float>();
     const Vec3f position = bind(partner).cast<float>();
     if (before == position) return;
@@ -186,6 +200,7 @@ class CrackMatch {
   EditLog::Mark since_;
   const Workpiece& work_;
   ScratchVector<CrackPoint> points_;
+  ScratchVector<Index> older_vertices_;  ///< Per mesh: the number of those that were there before.
 };
 
 }  // namespace
