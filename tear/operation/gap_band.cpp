@@ -265,7 +265,7 @@ ScratchVector<CellFace> GapBand::faces_to_remove(CellSides& sides, const Pending
     const Vec2d middle = gap.plane->project((a + b + c) / 3);
     return middle.y() - depth_at(gap.section, middle.x()) < kOtherLayerWidths * width_;
   };
-  return faces_in_cell(sides, seeds, is_same_layer);
+  return faces_in_cell(sides, seeds, width_, is_same_layer);
 }
 
 void GapBand::remove(std::span<const PlaneSide> cell, std::span<const Side> sides,

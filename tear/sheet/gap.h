@@ -4,6 +4,7 @@
 #include <array>
 #include <span>
 
+#include "tear/path/across_crack.h"
 #include "tear/sheet/cell_sides.h"
 #include "tear/surface/sort_by_index.h"
 
@@ -23,11 +24,12 @@ template <class MayHoldAny>
 [[nodiscard]] bool is_edge_in_cell(const CellFace& face, Index k, CellSides& sides);
 
 /// The faces of which a part lies inside a cell and that are connected to the seeds inside it,
-/// ascending.
+/// ascending. The search goes on across cracks of the source.
+/// @param widest_crack  whose sides are farther apart is a border.
 /// @param is_wanted  is_wanted(cell face): whether the search may enter a face.
 template <class IsWanted>
 [[nodiscard]] ScratchVector<CellFace> faces_in_cell(CellSides& sides, std::span<const Index> seeds,
-                                                    IsWanted is_wanted);
+                                                    double widest_crack, IsWanted is_wanted);
 
 /// Figures of the removal of a cell.
 struct GapRemoval {
@@ -78,7 +80,7 @@ ScratchVector<CellFace> faces_in_cell(CellSides& sides, const Frame& frame,
 
 template <class IsWanted>
 ScratchVector<CellFace> faces_in_cell(CellSides& sides, std::span<const Index> seeds,
-                                      IsWanted is_wanted) {
+                                      double widest_crack, IsWanted is_wanted) {
   const Surface& surface = sides.editor().surface();
   ScratchVector<CellFace> faces(&sides.memory());
   faces.reserve(4 * seeds.size());
@@ -91,10 +93,23 @@ ScratchVector<CellFace> faces_in_cell(CellSides& sides, std::span<const Index> s
     CellFace face{seed, sides.places_of(seed)};
     if (is_face_in_cell(face, sides) && seen.insert(seed, 0) == kNone) visit(face);
   }
+  const auto cross_crack = [&](const CellFace& from, Index k) {
+    if (surface.cracks.empty() || !is_edge_in_cell(from, k, sides)) return;
+    for (const Index beyond :
+         half_edges_across_crack(3 * from.face + k, widest_crack, sides.editor(), sides.posed())) {
+      if (seen.find(beyond / 3) != kNone) continue;
+      CellFace face{beyond / 3, sides.places_of(beyond / 3)};
+      face.is_inside = sides.is_surely_inside(sides.at(face.places));
+      if (!is_edge_in_cell(face, beyond % 3, sides)) continue;
+      seen.insert(face.face, 0);
+      visit(face);
+    }
+  };
   for (std::size_t i = 0; i < faces.size(); ++i) {
     const CellFace face = faces[i];
     for (Index k = 0; k < 3; ++k) {
       const Index twin = surface.twin[3 * face.face + k];
+      if (twin == kNone) cross_crack(face, k);
       if (twin == kNone || seen.find(twin / 3) != kNone || !is_edge_in_cell(face, k, sides))
         continue;
       seen.insert(twin / 3, 0);
