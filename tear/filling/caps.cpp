@@ -1,12 +1,13 @@
 #include "tear/filling/caps.h"
 
 #include <algorithm>
-#include <map>
-#include <memory_resource>
 
 #include "core/internal/ordered.h"
+#include "tear/filling/cap_rim.h"
 #include "tear/filling/cap_shapes.h"
+#include "tear/filling/divided_cap.h"
 #include "tear/filling/filling.h"
+#include "tear/filling/flat_triangles.h"
 #include "tear/filling/part_points.h"
 #include "tear/filling/rim_values.h"
 #include "tear/geometry/tolerances.h"
@@ -42,16 +43,6 @@ double doubled_area(const FlatLoop& loop) {
   }
   return area;
 }
-
-using FlatTriangle = std::array<Index, 3>;
-
-/// A region of the section, with the half-edges around it.
-struct CapRim {
-  explicit CapRim(ScratchMemory& scratch) : half_edges(&scratch) {}
-
-  ScratchVector<Index> half_edges;  ///< Of all its loops, as triangulate() numbers their points.
-  std::span<const Vec2d> places;    ///< Of those points.
-};
 
 /// The caps of one side.
 class Caps {
@@ -140,10 +131,8 @@ class Caps {
     return has_moved;
   }
 
-  /// The point at which the cap's edge along a border half-edge begins, which is where the
-  /// half-edge ends.
   [[nodiscard]] Index point_before(Index half_edge) const {
-    return work_.editor.surface().corner_point[Surface::next(half_edge)];
+    return CapRim::point_before(half_edge, work_.editor.surface());
   }
   [[nodiscard]] Vec3d position(Index point) const {
     return work_.posed.position(work_.editor, point);
@@ -161,7 +150,7 @@ class Caps {
     append(region.outline);
     for (const Index hole : region.holes) append(hole);
     CapShape own(scratch());  // if this side needs other points
-    CapShape& of = is_divided(rim, shape, own) ? own : shape;
+    CapShape& of = divide_cap(rim, shape, work_.editor.surface(), own) ? own : shape;
 
     const Index mesh = mesh_with_most(rim.half_edges);
     ScratchVector<Index> points(&scratch()), vertices(&scratch());
@@ -193,11 +182,11 @@ class Caps {
     const FlatMesh& flat = shape.flat;
     ScratchVector<FlatTriangle> turned(&scratch());
     // What has the same places in bind space has the same triangles without area.
-    if (!is_copy) shape.first_cap.is_flat = has_flat_triangles(mesh, vertices, flat.triangles);
+    const CapVertices cap{mesh, vertices};
+    if (!is_copy) shape.first_cap.is_flat = has_flat_triangles(flat.triangles, cap, work_.editor);
     if (shape.first_cap.is_flat) {
       turned = flat.triangles;
-      turn_flat_triangles(rim.half_edges, mesh, vertices, turned);
-      if (!have_area(mesh, vertices, turned)) return false;  // stored positions are too coarse
+      if (!turn_flat_triangles(turned, cap, rim, work_.editor)) return false;
     }
     const std::span<const FlatTriangle> triangles =
         shape.first_cap.is_flat ? turned : flat.triangles;
@@ -234,170 +223,6 @@ class Caps {
       const Index begin = corners[(is_swapped ? edge + 1 : edge) % 3];
       if (begin < rim_count) connect(half_edge_of(edge), rim.half_edges[begin], work_.editor);
     }
-  }
-
-  /// Whether the cap needs points that the shape does not have, because of the faces around it.
-  /// @param own  written: the shape with these points.
-  bool is_divided(const CapRim& rim, const CapShape& shape, CapShape& own) const {
-    const bool is_second = is_second_face(rim, shape.flat);
-    const ScratchVector<std::array<Index, 2>> joined = joined_edges(rim, shape.flat);
-    if (!is_second && joined.empty()) return false;
-    own.rim_count = shape.rim_count;
-    own.flat = shape.flat;
-    own.flat.twins.clear();
-    if (is_second) split_second_face(rim, own.flat);
-    split_edges(joined, rim, own.flat);
-    own.places.assign(rim.places.begin(), rim.places.end());
-    own.places.insert(own.places.end(), own.flat.inner.begin(), own.flat.inner.end());
-    return true;
-  }
-
-  /// Whether a half-edge of the border begins where another ends.
-  [[nodiscard]] bool follows(Index half_edge, Index other) const {
-    return work_.editor.surface().corner_point[half_edge] == point_before(other);
-  }
-
-  /// Whether two points of the rim are joined by an edge other than the rim's: a fold or a face in
-  /// the plane, or a border elsewhere. With an edge of the cap between them, that edge would have
-  /// too many faces.
-  [[nodiscard]] bool is_joined(Index half_edge_a, Index half_edge_b) const {
-    const Surface& surface = work_.editor.surface();
-    const Index a = point_before(half_edge_a), b = point_before(half_edge_b);
-    const Index ab = surface.find_half_edge(a, b), ba = surface.find_half_edge(b, a);
-    return (ab != kNone && ab != half_edge_b) || (ba != kNone && ba != half_edge_a);
-  }
-
-  /// Whether the cap is that of an isolated face: two faces on the same three points could not be
-  /// split separately.
-  static bool is_second_face(const CapRim& rim, const FlatMesh& flat) {
-    return flat.triangles.size() == 1 &&
-           std::all_of(rim.half_edges.begin(), rim.half_edges.end(),
-                       [&](Index h) { return h / 3 == rim.half_edges.front() / 3; });
-  }
-
-  /// Adds a point in the middle of the only triangle.
-  static void split_second_face(const CapRim& rim, FlatMesh& flat) {
-    const auto [a, b, c] = flat.triangles[0];
-    const auto middle = static_cast<Index>(rim.places.size());
-    flat.inner.push_back((rim.places[a] + rim.places[b] + rim.places[c]) / 3);
-    flat.triangles.assign({{a, b, middle}, {b, c, middle}, {c, a, middle}});
-  }
-
-  /// The edges between points of the rim that are joined, ascending.
-  [[nodiscard]] ScratchVector<std::array<Index, 2>> joined_edges(const CapRim& rim,
-                                                                 const FlatMesh& flat) const {
-    const auto rim_count = static_cast<Index>(rim.places.size());
-    ScratchVector<std::array<Index, 2>> joined(&scratch());
-    for (const FlatTriangle& corners : flat.triangles)
-      for (std::size_t k = 0; k < 3; ++k) {
-        const Index a = corners[k], b = corners[(k + 1) % 3];
-        if (a >= rim_count || b >= rim_count) continue;
-        // An edge between two triangles is looked up once.
-        const Index from = rim.half_edges[a], to = rim.half_edges[b];
-        if (a > b && !follows(from, to) && !follows(to, from)) continue;
-        if (is_joined(from, to)) joined.push_back({std::min(a, b), std::max(a, b)});
-      }
-    std::sort(joined.begin(), joined.end());
-    joined.erase(std::unique(joined.begin(), joined.end()), joined.end());
-    return joined;
-  }
-
-  /// Adds a point in the middle of each of some edges.
-  static void split_edges(std::span<const std::array<Index, 2>> joined, const CapRim& rim,
-                          FlatMesh& flat) {
-    const auto first = static_cast<Index>(rim.places.size() + flat.inner.size());
-    for (const auto [a, b] : joined) flat.inner.push_back(0.5 * (rim.places[a] + rim.places[b]));
-    for (std::size_t t = 0; t < flat.triangles.size();
-         ++t)  // parts are appended, and looked at in their turn
-      for (std::size_t k = 0; k < 3;) {
-        const Index a = flat.triangles[t][k], b = flat.triangles[t][(k + 1) % 3],
-                    c = flat.triangles[t][(k + 2) % 3];
-        const std::array<Index, 2> edge{std::min(a, b), std::max(a, b)};
-        const auto found = std::lower_bound(joined.begin(), joined.end(), edge);
-        if (found == joined.end() || *found != edge) {
-          ++k;
-          continue;
-        }
-        const Index middle = first + static_cast<Index>(found - joined.begin());
-        flat.triangles[t] = {a, middle, c};
-        flat.triangles.push_back({middle, b, c});
-        k = 0;
-      }
-  }
-
-  /// Whether stored positions leave a triangle no area, or nearly none.
-  [[nodiscard]] bool has_flat_triangles(Index mesh, std::span<const Index> vertices,
-                                        std::span<const FlatTriangle> triangles) const {
-    return std::any_of(triangles.begin(), triangles.end(), [&](const FlatTriangle& t) {
-      const Eigen::Vector3d a = place(mesh, vertices[t[0]]);
-      const Eigen::Vector3d ab = place(mesh, vertices[t[1]]) - a,
-                            ac = place(mesh, vertices[t[2]]) - a, bc = ac - ab;
-      const double longest = std::max({squared_norm(ab), squared_norm(bc), squared_norm(ac)});
-      const double height = kStoredCoordinates * a.cwiseAbs().maxCoeff();
-      return !(squared_norm(ab.cross(ac)) > height * height * longest);
-    });
-  }
-
-  [[nodiscard]] bool have_area(Index mesh, std::span<const Index> vertices,
-                               std::span<const FlatTriangle> triangles) const {
-    return std::all_of(triangles.begin(), triangles.end(), [&](const FlatTriangle& t) {
-      const Eigen::Vector3d a = place(mesh, vertices[t[0]]), ab = place(mesh, vertices[t[1]]) - a,
-                            ac = place(mesh, vertices[t[2]]) - a;
-      return squared_norm(ab.cross(ac)) > 0;
-    });
-  }
-
-  /// Rim points that should be collinear, as where a cut meets an older cap, are so only
-  /// approximately in the pose. After rounding to float, a triangle of three of them has no area.
-  /// Its longest edge is flipped.
-  void turn_flat_triangles(std::span<const Index> half_edges, Index mesh,
-                           std::span<const Index> vertices,
-                           std::span<FlatTriangle> triangles) const {
-    const auto at = [&](Index i) { return place(mesh, vertices[i]); };
-    const auto height_of = [&](const FlatTriangle& t) {
-      const double longest = std::max(
-          {norm(at(t[1]) - at(t[0])), norm(at(t[2]) - at(t[1])), norm(at(t[0]) - at(t[2]))});
-      return longest > 0 ? norm((at(t[1]) - at(t[0])).cross(at(t[2]) - at(t[0]))) / longest : 0.0;
-    };
-    const auto is_flat = [&](const FlatTriangle& t) {
-      return height_of(t) <= kStoredCoordinates * at(t[0]).cwiseAbs().maxCoeff();
-    };
-    std::pmr::map<std::array<Index, 2>, std::size_t> triangle_at(&scratch());  // by directed edge
-    const auto enter = [&](std::size_t t) {
-      for (std::size_t k = 0; k < 3; ++k)
-        triangle_at[{triangles[t][k], triangles[t][(k + 1) % 3]}] = t;
-    };
-    for (std::size_t t = 0; t < triangles.size(); ++t) enter(t);
-    for (std::size_t t = 0; t < triangles.size(); ++t) {
-      const FlatTriangle flat = triangles[t];
-      if (!is_flat(flat)) continue;
-      std::size_t k = 0;
-      for (std::size_t i = 1; i < 3; ++i)
-        if (norm(at(flat[(i + 1) % 3]) - at(flat[i])) > norm(at(flat[(k + 1) % 3]) - at(flat[k])))
-          k = i;
-      const Index a = flat[k], b = flat[(k + 1) % 3], c = flat[(k + 2) % 3];
-      const auto across = triangle_at.find({b, a});
-      if (across == triangle_at.end()) continue;
-      const std::size_t other = across->second;
-      const FlatTriangle of_other = triangles[other];
-      const Index d = of_other[0] != a && of_other[0] != b   ? of_other[0]
-                      : of_other[1] != a && of_other[1] != b ? of_other[1]
-                                                             : of_other[2];
-      if (triangle_at.count({c, d}) != 0 || triangle_at.count({d, c}) != 0) continue;
-      if (std::max(c, d) < half_edges.size() && is_joined(half_edges[c], half_edges[d])) continue;
-      if (!(std::min(height_of({a, d, c}), height_of({d, b, c})) > height_of(flat))) continue;
-      triangle_at.erase({a, b});
-      triangle_at.erase({b, a});
-      triangles[t] = {a, d, c};
-      triangles[other] = {d, b, c};
-      enter(t);
-      enter(other);
-    }
-  }
-
-  /// In bind space.
-  [[nodiscard]] Eigen::Vector3d place(Index mesh, Index vertex) const {
-    return work_.editor.births.position(mesh, vertex).cast<double>();
   }
 
   [[nodiscard]] Index mesh_with_most(std::span<const Index> half_edges) const {
