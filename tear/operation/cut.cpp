@@ -149,6 +149,12 @@ void cut_surface(const PlaneCut& cut, const Workpiece& work, Outcome& outcome) {
   const ScratchVector<Index> faces = faces_of_sections(
       sheet, limits, faces_across(sheet, work.editor, work.posed), work.editor, work.posed);
   const SheetOpening opening = open_sheet(sheet, faces, cut.caps, work, outcome.borders.lips);
+  if (opening.edges.empty()) {  // The plane may still have turned edges out of its way.
+    work.editor.roll_back(before);
+    work.posed.forget_from(before.points);
+    report.blocked = opening.blocked;
+    return;
+  }
   report.runs = opening.runs;
   report.faces_crossed = opening.faces_crossed;
   report.blocked = opening.blocked + match_crack_points(before, work);

@@ -236,6 +236,8 @@ TEST_P(RandomChanges, keep_a_mirror_equal) {
 INSTANTIATE_TEST_SUITE_P(seeds, RandomChanges, testing::Range(0, 100));
 
 TEST(ChangeRecord, has_a_run_if_the_first_segment_was_too_short_to_tear) { mirror_at_random(431); }
+/// It turned an edge out of its way to a vertex that it only touches.
+TEST(ChangeRecord, of_a_cut_that_opens_nothing_is_empty) { mirror_at_random(1603); }
 
 TEST(ChangeRecord, of_a_strokes_pieces_keep_a_mirror_equal) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
