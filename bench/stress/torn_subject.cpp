@@ -20,12 +20,18 @@ void add(const char* law, const std::vector<std::string>& faults, CaseReport& re
   for (const std::string& fault : faults) report.violate(law, fault);
 }
 
-Result<TearReport> tear_blade_by_blade(TornModel& model, const TearOperation& tear) {
+/// Calls check(change) after each blade of a short stroke.
+template <class Check>
+Result<TearReport> tear_blade_by_blade(TornModel& model, const TearOperation& tear, Check check) {
+  constexpr std::size_t kFewBlades = 64;
   const auto& pose = std::get<ModelPose>(tear.pose);
   auto stroke = TearStroke::create(model, pose, tear.stroke[0], tear.options);
   if (!stroke) return stroke.error();
-  for (std::size_t i = 1; i < tear.stroke.size(); ++i)
-    if (auto report = stroke->extend(pose, tear.stroke[i]); !report) return report;
+  ChangeRecord change;
+  for (std::size_t i = 1; i < tear.stroke.size(); ++i) {
+    if (auto report = stroke->extend(pose, tear.stroke[i], 0.0, &change); !report) return report;
+    if (tear.stroke.size() <= kFewBlades) check(change);
+  }
   return stroke->end();
 }
 
@@ -63,8 +69,11 @@ void TornSubject::operate(const Operation& operation) {
 
 void TornSubject::tear_in_steps(const TearOperation& tear) {
   if (!model_) return;
+  const auto check_lips = [&](const ChangeRecord& change) {
+    add("lips", test::broken_lips(*model_, change), report_);
+  };
   ChangeRecord none;
-  note(tear_blade_by_blade(*model_, tear).error(), none);
+  note(tear_blade_by_blade(*model_, tear, check_lips).error(), none);
 }
 
 void TornSubject::reweigh(const WeightsOperation& wanted) {
