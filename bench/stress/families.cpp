@@ -11,6 +11,8 @@ constexpr std::array kFamilies = {
     Family{"random", "tears, gaps, cuts and bores in random poses", false, 1000, random_operations},
     Family{"hard", "operations through vertices, along edges, far too small and far too large",
            true, 200, hard_operations},
+    Family{"cracks", "surfaces whose sides of an edge have different weights", true, 40,
+           cracked_bodies},
     Family{"scales", "models of 0.1 mm to 10 km, up to 100 km from the origin", true, 40,
            scaled_and_shifted},
     Family{"poses", "bones that collapse, mirror, shear or turn by 180 degrees; not a number", true,

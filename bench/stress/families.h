@@ -29,7 +29,7 @@ extern std::uint32_t threads_of_scenes;
 using CaseFunction = void(std::uint64_t seed, const Steps& steps, CaseReport& report);
 
 // Operations on one model (model_cases.cpp).
-CaseFunction random_operations, hard_operations, scaled_and_shifted, hard_poses;
+CaseFunction random_operations, hard_operations, cracked_bodies, scaled_and_shifted, hard_poses;
 // Planes that meet vertices and edges, and one another (plane_cases.cpp).
 CaseFunction planes_at_vertices, plane_bundles, plane_stacks;
 // Strokes that turn, return and end at difficult places (stroke_cases.cpp).

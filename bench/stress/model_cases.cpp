@@ -8,6 +8,7 @@
 
 #include "bench/stress/families.h"
 #include "bench/stress/steps.h"
+#include "support/models/cracked_bodies.h"
 #include "support/models/hard_operations.h"
 #include "support/models/random_operations.h"
 #include "support/models/rigs.h"
@@ -77,6 +78,19 @@ void hard_operations(std::uint64_t seed, const Steps& steps, CaseReport& report)
   TornSubject subject(test::hard_character(random), report);
   run_steps(subject, seed, steps, 5, [](TornSubject& of, Random& numbers, std::uint32_t) {
     operate_hard(of, test::hard_pose(of.model().source(), numbers), numbers);
+  });
+}
+
+void cracked_bodies(std::uint64_t seed, const Steps& steps, CaseReport& report) {
+  Random random = random_of(seed, 0);
+  TornSubject subject(
+      random.index(2) == 0 ? test::cracked_body(random) : test::coarsely_weighted_body(random),
+      report);
+  run_steps(subject, seed, steps, 5, [](TornSubject& of, Random& numbers, std::uint32_t) {
+    if (numbers.index(2) == 0)
+      operate_hard(of, test::random_pose(of.model().source(), numbers), numbers);
+    else
+      of.operate(test::random_operation(of.model(), numbers));
   });
 }
 

@@ -1,11 +1,11 @@
 #include "support/models/cracked_bodies.h"
 
+#include <algorithm>
 #include <array>
 #include <map>
 
 #include "support/machine/say.h"
 #include "support/models/rigs.h"
-#include "tear/surface/mesh_vertices.h"
 
 namespace sunder::test {
 namespace {
@@ -15,6 +15,32 @@ using Place = std::array<float, 3>;
 Place place_of(const Mesh& mesh, std::uint32_t vertex) {
   const Vec3f& at = mesh.positions[vertex];
   return {at.x() + 0.0f, at.y() + 0.0f, at.z() + 0.0f};
+}
+
+/// Bodies of closed_body() have no custom attributes. @return the copy.
+std::uint32_t append_copy(Mesh& mesh, std::uint32_t vertex) {
+  const auto append = [&](auto& values) {
+    if (values.empty()) return;
+    const auto value = values[vertex];  // by value: push_back may move the array
+    values.push_back(value);
+  };
+  const std::uint32_t copy = mesh.vertex_count();
+  append(mesh.positions);
+  append(mesh.normals);
+  append(mesh.tangents);
+  for (auto& uvs : mesh.uv_sets) append(uvs);
+  for (auto& colors : mesh.color_sets) append(colors);
+  for (MorphTarget& target : mesh.morph_targets) {
+    append(target.position_deltas);
+    append(target.normal_deltas);
+    append(target.tangent_deltas);
+  }
+  const auto of = mesh.weights.of(vertex);
+  const std::vector<Influence> influences(of.begin(), of.end());
+  mesh.weights.influences.insert(mesh.weights.influences.end(), influences.begin(),
+                                 influences.end());
+  mesh.weights.first.push_back(static_cast<std::uint32_t>(mesh.weights.influences.size()));
+  return copy;
 }
 
 /// Gives the triangles on one side of a plane vertices of their own, with other weights: the
@@ -42,7 +68,7 @@ void crack(Character& character, Random& random, Change change) {
     for (std::uint32_t& v : mesh.triangles[i])
       if (beyond[i] && stays_at[place_of(mesh, v)]) {
         const auto [known, is_new] = copies.emplace(v, mesh.vertex_count());
-        if (is_new) change(append_vertex_copy(v, mesh));
+        if (is_new) change(append_copy(mesh, v));
         v = known->second;
       }
 }
