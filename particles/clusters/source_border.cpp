@@ -1,6 +1,7 @@
 #include "particles/clusters/source_border.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace sunder::particles {
 namespace {
@@ -28,9 +29,11 @@ bool is_opposite(Index mesh, Index vertex, Index corner_vertex, const TornModel&
 
 }  // namespace
 
-SourceBorder::SourceBorder(const TornModel& model)
-    : half_edges_(std::make_shared<const std::vector<Index>>(borders_of(
-          model.newest_operation() == 0 ? model.surface() : tear::build_surface(model.source())))) {
+SourceBorder::SourceBorder(const TornModel& model) {
+  std::vector<Index> borders = model.newest_operation() == 0
+                                   ? borders_of(model.surface())
+                                   : borders_of(tear::build_surface(model.source()));
+  half_edges_ = std::make_shared<const std::vector<Index>>(std::move(borders));
 }
 
 bool SourceBorder::has(Index half_edge, const TornModel& model) const {
