@@ -2,9 +2,11 @@
 
 #include <functional>
 #include <limits>
+#include <set>
 
 #include <gtest/gtest.h>
 
+#include "core/internal/validate_clip.h"
 #include "support/machine/starve.h"
 #include "support/models/rigs.h"
 
@@ -90,6 +92,94 @@ INSTANTIATE_TEST_SUITE_P(
                 [](Character& c) { c.clips[0].channels[0].values[2] = kNan; }}),
     [](const auto& test) { return test.param.name; });
 
+void add_attribute(Character& character, std::uint32_t components, std::size_t values) {
+  CustomAttribute attribute;
+  attribute.name = "_HEAT";
+  attribute.components = components;
+  attribute.values.assign(values, 0.5f);
+  character.meshes[0].custom_attributes.push_back(attribute);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    streams_and_channels, ValidateCharacter,
+    testing::Values(
+        BadCase{"nan_normal", StatusCode::non_finite_value,
+                [](Character& c) { c.meshes[0].normals[5].x() = kNan; }},
+        BadCase{"too_many_tangents", StatusCode::size_mismatch,
+                [](Character& c) { c.meshes[0].tangents.emplace_back(1, 0, 0, 1); }},
+        BadCase{"nan_uv", StatusCode::non_finite_value,
+                [](Character& c) { c.meshes[0].uv_sets[0][7].x() = kNan; }},
+        BadCase{"colours_of_no_vertex", StatusCode::size_mismatch,
+                [](Character& c) { c.meshes[0].color_sets.emplace_back(); }},
+        BadCase{"morph_normals_of_other_length", StatusCode::size_mismatch,
+                [](Character& c) { c.meshes[0].morph_targets[0].normal_deltas.resize(3); }},
+        BadCase{"morph_tangents_of_other_length", StatusCode::size_mismatch,
+                [](Character& c) { c.meshes[0].morph_targets[0].tangent_deltas.resize(3); }},
+        BadCase{"attribute_without_components", StatusCode::size_mismatch,
+                [](Character& c) { add_attribute(c, 0, 0); }},
+        BadCase{"attribute_of_five_components", StatusCode::size_mismatch,
+                [](Character& c) { add_attribute(c, 5, 5 * c.meshes[0].vertex_count()); }},
+        BadCase{"attribute_of_other_length", StatusCode::size_mismatch,
+                [](Character& c) { add_attribute(c, 2, c.meshes[0].vertex_count()); }},
+        BadCase{"nan_attribute", StatusCode::non_finite_value,
+                [](Character& c) {
+                  add_attribute(c, 2, 2 * c.meshes[0].vertex_count());
+                  c.meshes[0].custom_attributes[0].values[9] = kNan;
+                }},
+        BadCase{"nan_rest_morph_weight", StatusCode::non_finite_value,
+                [](Character& c) { c.rest_morph_weights[0] = kNan; }},
+        BadCase{"too_few_submeshes_of_triangles", StatusCode::size_mismatch,
+                [](Character& c) { c.meshes[0].triangle_submesh.pop_back(); }},
+        BadCase{"slot_twice", StatusCode::invalid_argument,
+                [](Character& c) {
+                  SkinWeights& weights = c.meshes[0].weights;
+                  std::uint32_t v = 0;
+                  while (weights.of(v).size() < 2) ++v;
+                  Influence* const influences = &weights.influences[weights.first[v]];
+                  influences[1].slot = influences[0].slot;
+                }},
+        BadCase{"influences_that_no_vertex_has", StatusCode::size_mismatch,
+                [](Character& c) {
+                  c.meshes[0].weights.influences.push_back({0, 1});
+                }},
+        BadCase{"influences_from_behind_the_first", StatusCode::size_mismatch,
+                [](Character& c) { c.meshes[0].weights.first[0] = 1; }},
+        BadCase{"influences_beyond_the_last", StatusCode::size_mismatch,
+                [](Character& c) { c.meshes[0].weights.first[4] = 100000; }},
+        BadCase{"too_few_offsets", StatusCode::size_mismatch,
+                [](Character& c) { c.meshes[0].weights.first.pop_back(); }},
+        BadCase{"infinite_weight", StatusCode::weights_not_normalized,
+                [](Character& c) {
+                  c.meshes[0].weights.influences[3].weight = std::numeric_limits<float>::infinity();
+                }},
+        BadCase{"channel_without_width", StatusCode::index_out_of_range,
+                [](Character& c) { c.clips[0].channels[0].width = 0; }},
+        BadCase{"rotation_of_three_floats", StatusCode::size_mismatch,
+                [](Character& c) { c.clips[0].channels[0].width = 3; }},
+        BadCase{"scale_of_four_floats", StatusCode::size_mismatch,
+                [](Character& c) { c.clips[0].channels[0].target = ChannelTarget::scale; }},
+        BadCase{"channel_of_no_morph_weight", StatusCode::index_out_of_range,
+                [](Character& c) {
+                  c.clips[0].channels[0].target = ChannelTarget::morph_weights;
+                  c.clips[0].channels[0].index = 0;
+                }},
+        BadCase{"channel_without_keys", StatusCode::empty_input,
+                [](Character& c) {
+                  c.clips[0].channels[0].times.clear();
+                  c.clips[0].channels[0].values.clear();
+                }},
+        BadCase{"spline_without_tangents", StatusCode::size_mismatch,
+                [](Character& c) {
+                  c.clips[0].channels[0].interpolation = Interpolation::cubic_spline;
+                }},
+        BadCase{"key_before_the_begin", StatusCode::invalid_argument,
+                [](Character& c) { c.clips[0].channels[0].times[0] = -1.0f; }},
+        BadCase{"infinite_key_time", StatusCode::invalid_argument,
+                [](Character& c) {
+                  c.clips[0].channels[0].times[2] = std::numeric_limits<float>::infinity();
+                }}),
+    [](const auto& test) { return test.param.name; });
+
 TEST(ValidateCharacterTriangles, may_be_retired) {
   Character character = test::make_tube(4, 6, 3);
   for (Triangle& triangle : character.meshes[0].triangles) triangle.fill(triangle[2]);
@@ -105,10 +195,39 @@ TEST(ValidateCharacterIndex, names_the_first_offender) {
   EXPECT_NE(status.text().find("vertex 17"), std::string_view::npos) << status.text();
 }
 
+TEST(ValidateCharacterAttributes, may_have_up_to_four_components) {
+  Character character = test::make_tube(4, 6, 3);
+  const std::uint32_t vertices = character.meshes[0].vertex_count();
+  for (std::uint32_t components = 1; components <= 4; ++components)
+    add_attribute(character, components, components * vertices);
+  character.meshes[0].color_sets.emplace_back(vertices, Vec4f(1, 0, 0, 1));
+  EXPECT_TRUE(validate_character(character)) << validate_character(character).text();
+}
+
+TEST(ValidateClip, names_the_clip_and_the_channel) {
+  const Character character = test::make_tube(4, 6, 3);
+  Clip clip = character.clips[0];
+  EXPECT_TRUE(validate_clip(character, clip));
+  clip.channels[1].index = 50;
+  const Status status = validate_clip(character, clip);
+  EXPECT_EQ(status.code(), StatusCode::index_out_of_range);
+  EXPECT_EQ(status.index(), 1u);
+  EXPECT_NE(status.text().find("'Bend'"), std::string_view::npos) << status.text();
+}
+
 TEST(ValidateCharacter, says_where_memory_runs_out) {
   test::starve([] { return std::make_unique<Character>(test::make_tube(4, 6, 3)); },
                [](const Character& character) { return validate_character(character); },
                [](const Character&, const Status&) {});
+}
+
+TEST(Status, every_code_has_a_name_of_its_own) {
+  std::set<std::string_view> names;
+  const int codes = static_cast<int>(StatusCode::internal_error) + 1;
+  for (int code = 0; code < codes; ++code) names.insert(status_name(static_cast<StatusCode>(code)));
+  EXPECT_EQ(names.size(), static_cast<std::size_t>(codes));
+  EXPECT_FALSE(names.contains("unknown"));
+  EXPECT_EQ(status_name(static_cast<StatusCode>(codes)), "unknown");
 }
 
 TEST(Status, cuts_long_texts_and_keeps_the_cause) {

@@ -4,46 +4,18 @@
 #include <sunder/scene/scene.h>
 #include <sunder/skinning/pose.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <thread>
-
 #include <gtest/gtest.h>
 
+#include "support/machine/counting_resource.h"
 #include "support/models/random_operations.h"
 #include "support/models/rigs.h"
 
 namespace sunder {
 namespace {
 
+using test::CountingResource;
+
 constexpr double kFrame = 1.0 / 64;
-
-/// Counts what is allocated from it; can run out.
-class CountingResource : public std::pmr::memory_resource {
- public:
-  [[nodiscard]] std::size_t bytes() const { return bytes_; }
-  [[nodiscard]] std::size_t blocks() const { return blocks_; }
-  void limit(std::size_t bytes) { most_ = bytes; }
-
- private:
-  void* do_allocate(std::size_t bytes, std::size_t alignment) override {
-    if (bytes_ + bytes > most_) throw std::bad_alloc();
-    bytes_ += bytes;
-    ++blocks_;
-    return std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
-  }
-  void do_deallocate(void* memory, std::size_t bytes, std::size_t) override {
-    bytes_ -= bytes;
-    --blocks_;
-    std::free(memory);
-  }
-  [[nodiscard]] bool do_is_equal(const memory_resource& other) const noexcept override {
-    return this == &other;
-  }
-
-  std::atomic<std::size_t> bytes_ = 0, blocks_ = 0;
-  std::atomic<std::size_t> most_ = ~std::size_t{0};
-};
 
 std::shared_ptr<const CharacterAsset> make_asset(CountingResource& memory,
                                                  std::uint32_t vertices = 3000) {
@@ -74,44 +46,6 @@ void expect_near(std::size_t reported, std::size_t counted, double less, double 
   const double ratio = static_cast<double>(reported) / static_cast<double>(counted);
   EXPECT_GT(ratio, 1 - less) << reported << " of " << counted;
   EXPECT_LT(ratio, 1 + more) << reported << " of " << counted;
-}
-
-TEST(memory_scope, nests_and_belongs_to_a_thread) {
-  CountingResource outer, inner;
-  EXPECT_EQ(MemoryScope::current(), nullptr);
-  {
-    const MemoryScope one(&outer);
-    {
-      const MemoryScope two(&inner);
-      EXPECT_EQ(MemoryScope::current(), &inner);
-      std::thread([] { EXPECT_EQ(MemoryScope::current(), nullptr); }).join();
-    }
-    EXPECT_EQ(MemoryScope::current(), &outer);
-  }
-  EXPECT_EQ(MemoryScope::current(), nullptr);
-}
-
-TEST(memory_scope, each_block_returns_to_its_resource) {
-  CountingResource memory;
-  std::unique_ptr<std::vector<int>> values;
-  struct alignas(64) Wide {
-    float values[16];
-  };
-  std::unique_ptr<Wide> wide;
-  {
-    const MemoryScope scope(&memory);
-    values = std::make_unique<std::vector<int>>(1000);
-    wide = std::make_unique<Wide>();
-  }
-  EXPECT_EQ(memory.blocks(), 3u);
-  EXPECT_GE(memory.bytes(), 1000 * sizeof(int) + sizeof(Wide));
-  EXPECT_EQ(reinterpret_cast<std::uintptr_t>(wide.get()) % 64, 0u);
-  values->resize(5000);  // outside: from the heap
-  EXPECT_EQ(memory.blocks(), 2u);
-  values.reset();
-  wide.reset();
-  EXPECT_EQ(memory.bytes(), 0u);
-  EXPECT_EQ(memory.blocks(), 0u);
 }
 
 TEST(memory_scope, a_scene_returns_all_of_it) {

@@ -3,9 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tools/model/name_advice.h"
-
-namespace sunder::tools {
+namespace sunder {
 namespace {
 
 using testing::ElementsAre;
@@ -26,14 +24,22 @@ TEST(NearestNames, at_most_three_are_proposed) {
   EXPECT_THAT(nearest_names("Arm", bones), ElementsAre("Arm.L", "Arm.R", "Arm.1"));
 }
 
-TEST(NearestNames, the_advice_lists_what_there_is_if_nothing_is_near) {
-  const std::vector<std::string> clips = {"Idle", "Walk"};
-  EXPECT_EQ(name_advice("Wakl", "clips", clips), "; did you mean 'Walk'?");
-  EXPECT_EQ(name_advice("Swim", "clips", clips), "; its clips: 'Idle', 'Walk'");
-  EXPECT_EQ(name_advice("Swim", "clips", {}), "; the model has no clips");
-  const std::vector<std::string> many(30, "Bone");
-  EXPECT_THAT(name_advice("Swim", "bones", many), testing::EndsWith("'Bone' and 20 more"));
+TEST(NearestNames, namespaces_do_not_count) {
+  const std::vector<std::string> bones = {"mixamorig:Hips", "rig|Spine", "Head:"};
+  EXPECT_THAT(nearest_names("hips", bones), ElementsAre("mixamorig:Hips"));
+  EXPECT_THAT(nearest_names("other:Spin", bones), ElementsAre("rig|Spine"));
+  EXPECT_EQ(without_namespace("a:b|c"), "c");
+  EXPECT_EQ(without_namespace("Head:"), "Head:");  // nothing follows, so that is its name
+  EXPECT_EQ(without_namespace("Head"), "Head");
+}
+
+TEST(NearestNames, are_listed_as_one_says_them) {
+  const std::vector<std::string> names = {"Walk", "Run", "Jump"};
+  EXPECT_EQ(listed_names({}), "");
+  EXPECT_EQ(listed_names({names.data(), 1}), "'Walk'");
+  EXPECT_EQ(listed_names({names.data(), 2}), "'Walk' or 'Run'");
+  EXPECT_EQ(listed_names(names), "'Walk', 'Run' or 'Jump'");
 }
 
 }  // namespace
-}  // namespace sunder::tools
+}  // namespace sunder
