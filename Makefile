@@ -1,6 +1,6 @@
 # Shortcuts: each target installs missing packages, configures, builds and runs, using the CMake presets.
 .DEFAULT_GOAL := help
-.PHONY: help demo pictures unit test bench stress fuzz format
+.PHONY: help demo pictures unit test coverage same-bits bench stress fuzz format
 jobs := $(shell nproc)
 
 help:
@@ -8,6 +8,8 @@ help:
 	@echo 'make pictures draws all pictures of docs/ anew; before and after side by side in build/pictures/'
 	@echo 'make unit     builds everything and runs the unit tests, which take under two minutes'
 	@echo 'make test     builds everything and runs all tests'
+	@echo 'make coverage lines and branches of core, tear and weights that their tests run; fails below 95 and 85 %'
+	@echo 'make same-bits tries the same cases with gcc, optimised and not, and with clang: the results must have the same bits'
 	@echo 'make bench    runs the benchmarks'
 	@echo 'make stress   all tests with many more random cases, then again under the sanitizers'
 	@echo 'make fuzz     runs each fuzz target by libFuzzer for FUZZ_SECONDS (300); needs clang'
@@ -37,6 +39,20 @@ test:
 	cmake --preset release
 	cmake --build --preset release
 	ctest --preset release -j $(jobs)
+
+coverage_tests := core_test memory_operators_test weights_test tear_test detach_test contact_test
+coverage:
+	scripts/setup coverage
+	cmake --preset coverage
+	cmake --build --preset coverage --target $(coverage_tests)
+	scripts/coverage $(coverage_tests)
+
+same_bits_builds := release debug clang
+same-bits:
+	scripts/setup clang
+	set -e; for build in $(same_bits_builds); do cmake --preset $$build; \
+	  cmake --build --preset $$build --target sunder-stress; done
+	scripts/same_bits $(same_bits_builds)
 
 bench:
 	scripts/setup
