@@ -43,6 +43,25 @@ void tear_in_motion(TornModel& model, Random& random, bool has_width) {
   ASSERT_TRUE(stroke->end());
 }
 
+TEST(Replay, undone_operations_are_what_redo_reapplies) {
+  Random random(5);
+  TornModel model = make_model(test::random_character(random));
+  EXPECT_TRUE(model.undone_operations()->empty());
+  while (model.undo_count() < 5)
+    ASSERT_TRUE(test::play(model, test::random_operation(model, random)));
+  for (int i = 0; i < 3; ++i) ASSERT_TRUE(model.undo());
+  const auto undone = model.undone_operations();
+  ASSERT_TRUE(undone);
+  ASSERT_EQ(undone->size(), 3u);
+  TornModel other = replay(model.source(), *model.history());
+  for (const Operation& operation : *undone) {
+    ASSERT_TRUE(apply_operation(other, operation));
+    ASSERT_TRUE(model.redo());
+    EXPECT_EQ(difference(state_of(other), state_of(model)), "");
+  }
+  EXPECT_TRUE(model.undone_operations()->empty());
+}
+
 class RandomReplay : public testing::TestWithParam<int> {};
 
 TEST_P(RandomReplay, of_the_history_reproduces_the_model) {
