@@ -322,6 +322,12 @@ TEST(Detach, faults_are_named_and_change_nothing) {
   DetachOptions options;
   options.mass.density = -1;
   EXPECT_EQ(fault(tube.on(0), options).code(), StatusCode::invalid_argument);
+  options = {};
+  options.motion = static_cast<PieceMotion>(9);
+  EXPECT_EQ(fault(tube.on(0), options).code(), StatusCode::invalid_argument);
+  options = {};
+  options.axes = static_cast<PieceAxes>(9);
+  EXPECT_EQ(fault(tube.on(0), options).code(), StatusCode::invalid_argument);
   const auto short_pose = detach(tube.model, {}, tube.on(0));
   EXPECT_EQ(short_pose.error().code(), StatusCode::size_mismatch);
 

@@ -100,6 +100,25 @@ TEST(OperationJob, gives_the_bits_and_the_record_of_the_call) {
   }
 }
 
+TEST(OperationJob, that_misses_changes_nothing) {
+  TornModel model = make_model(test::make_sheet(8));
+  const ModelPose rest = *rest_pose(model.source());
+  ChangeRecord change;
+  ASSERT_TRUE(model.cut(rest, cut_at(Vec3d(0.5, 0.5, 0), Vec3d::UnitX()), &change));
+  ASSERT_FALSE(change.lips.empty());
+  const auto torn = state_of(model);
+  const auto job =
+      OperationJob::create(model, CutOperation{rest, cut_at(Vec3d(9, 9, 9), Vec3d::UnitX())});
+  ASSERT_TRUE(job);
+  job->run();
+  const auto report = job->swap_in(model, &change);
+  ASSERT_TRUE(report) << report.error().text();
+  EXPECT_EQ(report->runs, 0u);
+  EXPECT_TRUE(change.lips.empty());
+  EXPECT_EQ(difference(state_of(model), torn), "");
+  EXPECT_EQ(model.undo_count(), 1u);
+}
+
 TEST(OperationJob, is_refused_where_it_does_not_fit) {
   TornModel model = make_model(test::make_sheet(8));
   const ModelPose rest = *rest_pose(model.source());
