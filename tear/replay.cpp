@@ -107,9 +107,6 @@ class Replay {
       if (!pose) return pose.error();
       poses.push_back(std::move(*pose));
     }
-    if (operation.stroke.size() < 2)
-      return Status::failure(StatusCode::invalid_argument, kNone,
-                             "a stroke needs at least two blades");
     auto stroke =
         TearStroke::create(model_, first_pose, operation.stroke.front(), operation.options);
     if (!stroke) return stroke.error();

@@ -147,6 +147,19 @@ TEST(RefitJob, undo_of_a_fitted_operation_cancels_it) {
   EXPECT_TRUE(other->swap_in(torn.model));
 }
 
+TEST(RefitJob, a_cancelled_one_changes_nothing) {
+  Torn torn(8);
+  const auto job = RefitJob::create(torn.model, refit_over_clips());
+  ASSERT_TRUE(job);
+  const auto digest = torn.model.digest();
+  job->cancel();
+  EXPECT_EQ(job->poll(), State::cancelled);
+  job->run();
+  EXPECT_EQ(job->poll(), State::cancelled);
+  EXPECT_EQ(job->swap_in(torn.model).error().code(), StatusCode::invalid_argument);
+  EXPECT_EQ(torn.model.digest(), digest);
+}
+
 TEST(RefitJob, of_another_model_is_refused) {
   Torn a(6), b(6);
   const auto job = RefitJob::create(a.model, refit_over_clips());

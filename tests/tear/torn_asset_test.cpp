@@ -148,6 +148,9 @@ TEST(TornAsset, models_that_nothing_has_torn_answer_like_others) {
   EXPECT_EQ(sharing.newest_operation(), 0u);
   TornModel moved = std::move(sharing);
   EXPECT_EQ(difference_of(moved, alone), "");
+  TornModel assigned = *TornModel::create(make_asset(test::make_sheet(2)));
+  assigned = std::move(moved);
+  EXPECT_EQ(difference_of(assigned, alone), "");
 }
 
 TEST(TornAsset, refuses_what_models_refuse) {
