@@ -1,11 +1,22 @@
 #include "bench/harness/json_object.h"
 
+#include <cmath>
+
 namespace sunder::bench {
+namespace {
+
+/// Counts are printed with all digits.
+void print(std::FILE* file, double value) {
+  const bool is_count = value == std::floor(value) && std::abs(value) < 1e15;
+  std::fprintf(file, is_count ? "%.0f" : "%.6g", value);
+}
+
+}  // namespace
 
 void JsonObject::add(const char* name, std::optional<double> value) {
   begin(name);
   if (value)
-    std::fprintf(file_, "%.6g", *value);
+    print(file_, *value);
   else
     std::fprintf(file_, "null");
 }
@@ -13,9 +24,10 @@ void JsonObject::add(const char* name, std::optional<double> value) {
 void JsonObject::add(const char* name, const std::vector<std::pair<std::string, double>>& values) {
   begin(name);
   std::fprintf(file_, "{");
-  for (std::size_t i = 0; i < values.size(); ++i)
-    std::fprintf(file_, "%s\"%s\": %.6g", i == 0 ? "" : ", ", values[i].first.c_str(),
-                 values[i].second);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    std::fprintf(file_, "%s\"%s\": ", i == 0 ? "" : ", ", values[i].first.c_str());
+    print(file_, values[i].second);
+  }
   std::fprintf(file_, "}");
 }
 
