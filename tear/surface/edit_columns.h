@@ -127,6 +127,8 @@ template <class AnyMesh>
 struct MeshVertices {
   AnyMesh& mesh;
 };
+template <class AnyMesh>
+MeshVertices(AnyMesh&) -> MeshVertices<AnyMesh>;  // clang deduces it of no aggregate before 17
 
 /// All columns of a model.
 struct ModelColumns {
