@@ -28,7 +28,8 @@ class LipFromTip {
       : body_(body), particles_(particles) {
     Index at = tip;
     double distance = 0;
-    while (distance < longest && !ends_at_tip_) {
+    // Edges without length may lead in a circle.
+    while (distance < longest && !ends_at_tip_ && points_.size() < particles.point_count()) {
       const Index following = forward ? border.next(at) : border.previous(at);
       if (following == kNone) break;
       ends_at_tip_ = std::ranges::binary_search(tips, following);
@@ -84,6 +85,7 @@ std::vector<TipLoad> tip_loads(const SoftBody& body, const ParticleSet& particle
         (!body.is_awake(load.left) && !body.is_awake(load.right)))
       continue;
     const double length = std::min(one.length(), other.length());
+    if (!(length > 0)) continue;
     const double spacing = double{lip_spacing(
         range, StructureOf::in(particles).character.edge_length, static_cast<float>(length))};
     double sum = 0;
