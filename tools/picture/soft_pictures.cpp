@@ -73,6 +73,7 @@ void draw_running(const std::string& folder) {
   tough.damping_ratio = 1.5;
   SoftMaterial weak = tough;
   weak.strength = 1.8;
+  weak.toughness = 0.25;
   SoftScene scene({tough, weak}, 0.05);
   // Only the front is weak, so that the held parts do not tear out.
   for (std::uint32_t p = 0; p < scene.particles().particle_count(); ++p) {
