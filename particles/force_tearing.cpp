@@ -289,7 +289,8 @@ Result<ForceTearingReport> tear_overstretched(const SoftBody& body, ParticleSet&
   Status status;
   try {
     const auto pairs = particles::find_overstretched(body, particles, report.greatest_stretch);
-    if (pairs.empty() && !particles::has_toughness(body)) return report;
+    if (pairs.empty() && (body.awake_count() == 0 || !particles::has_toughness(body)))
+      return report;
     if (const Status valid = particles.rest(pose, {}, {}); !valid) return valid;
     const auto tips = particles.tips(model);
     if (!tips) return tips.error();

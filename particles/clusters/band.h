@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "particles/clusters/structure.h"
+#include "particles/internal/tolerances.h"
 
 namespace sunder::particles {
 
@@ -44,7 +45,9 @@ struct LipChain {
   /// from the tip. @param range  of the decomposition, metres.
   [[nodiscard]] float fineness(const Place& place, float range) const {
     if (!(spacing > 0)) return 0;
-    return std::isfinite(length) ? 1.0f : std::clamp(4 - 2 * place.to_tip / range, 0.0f, 1.0f);
+    return std::isfinite(length)
+               ? 1.0f
+               : std::clamp(2 * (kNearTipRanges - place.to_tip / range), 0.0f, 1.0f);
   }
 };
 

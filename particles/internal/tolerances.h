@@ -109,9 +109,9 @@ inline constexpr double kLeastCoupling = 0.02;
 /// A tear continues if the cosine of the angle between its last edge and its direction is at least
 /// this.
 inline constexpr double kLeastForwardCosine = 0.2;
-/// What a tip releases by the energies of finite elements, for what the mean of its gap tells:
-/// the gap is blended from few particles there. Found by trial: 1.27 to 1.63 for slits from half a
-/// range to six ranges long.
+/// Factor by which the energy that a tip releases exceeds that of the mean gap next to it, because
+/// the gap is blended from few particles there. Fitted to energies of finite elements, which ask
+/// for 1.27 to 1.63 for slits from half a range to six ranges long.
 inline constexpr double kReleaseOfMean = 1.39;
 /// Neighbours are in a row if the determinant of their moments is below this fraction of the
 /// squared trace.

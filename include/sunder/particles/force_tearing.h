@@ -37,8 +37,9 @@ struct ForceTearingReport {
 /// @param pose       that of the last step.
 /// @param changes    optional; the record of the tear is appended.
 /// @return invalid_argument for the options; the failure of the tear (nothing is changed);
-///         limit_exceeded if out of memory. O(awake particles x neighbours) without a tear; with
-///         one, also the cost of the tear and its repair, and O(points of lips).
+///         limit_exceeded if out of memory. O(awake particles x neighbours) without a tear; if a
+///         material has a toughness and something is awake, also O(edges of lips), and allocates;
+///         with a tear, also its cost and that of its repair.
 SUNDER_API Result<ForceTearingReport> tear_overstretched(
     const SoftBody& body, ParticleSet& particles, TornModel& model, const ModelPose& pose,
     const ForceTearingOptions& options = {}, std::vector<ChangeRecord>* changes = nullptr);

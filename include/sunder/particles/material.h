@@ -31,9 +31,9 @@ struct SoftMaterial {
   /// Limit for the distance of two neighbours, relative to rest; >= 1, or 0: none.
   double stretch_limit = 0.0;
   double strength = 0.0;  ///< Stretch at which the tissue tears; > 1, or 0: it never does.
-  /// Energy that a tear takes per metre of its length, J/m: joules per square metre times thickness.
-  /// A tip runs on where the tissue releases at least this. 0: it runs on by the strength.
-  /// [0, 1e12].
+  /// Energy that a tear takes per metre of its length, J/m: joules per square metre times
+  /// thickness. A tip runs on where the tissue releases at least this. 0: it runs on by the
+  /// strength. [0, 1e12].
   double toughness = 0.0;
 
   bool operator==(const SoftMaterial&) const = default;
