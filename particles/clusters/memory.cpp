@@ -41,9 +41,10 @@ std::size_t bytes_of(const Change& change) {
 std::size_t bytes_of(const RepairScratch& scratch) {
   std::size_t bytes = scratch.front.memory_bytes() + scratch.band_front.memory_bytes() +
                       bytes_of(scratch.beside) + bytes_of(scratch.work_of) +
-                      bytes_of(scratch.score_of);
-  for (const Marks* marks : {&scratch.worked, &scratch.logged_points, &scratch.logged_particles,
-                             &scratch.seen, &scratch.given, &scratch.scored})
+                      bytes_of(scratch.score_of) + bytes_of(scratch.area_change);
+  for (const Marks* marks :
+       {&scratch.worked, &scratch.logged_points, &scratch.logged_particles, &scratch.seen,
+        &scratch.given, &scratch.scored, &scratch.has_area_change})
     bytes += marks->memory_bytes();
   return bytes;
 }

@@ -22,6 +22,8 @@ struct RepairScratch {
   Marks seen, given;
   Marks scored;  ///< Particles next to the lips.
   std::vector<Index> score_of;
+  Marks has_area_change;  ///< Particles whose cell the current call changes.
+  std::vector<double> area_change;
 
   /// Makes room for new points, by an eighth at a time.
   void make_room(std::size_t points) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "particles/clusters/border_table.h"
 #include "particles/clusters/cells.h"
 
 namespace sunder::particles {
@@ -20,55 +21,109 @@ Index surface_triangle(const Surface& surface, Index mesh, Index triangle) {
                                       : kNone;
 }
 
-/// Adds faces to cells or removes them.
+/// Adds faces to cells or removes them. Their parts are summed first, since many are of the same
+/// few cells.
 class CellEdit {
  public:
-  explicit CellEdit(StructureEdit& edit) : edit_(edit) {}
-
-  /// @param sign  1 with the owners of now, -1 with those from before the edit.
-  void add(const std::array<Index, 3>& points, int sign) {
-    const Structure& structure = edit_.structure();
-    std::array<Index, 3> owners = owners_of(structure, points);
-    if (sign < 0)
-      for (std::size_t k = 0; k < 3; ++k) owners[k] = edit_.owner_before(points[k]);
-    for_each_cell_part(
-        structure.points.positions, points, owners,
-        [&](Index p, double area) { edit_.change_particle(p).area += sign * area; },
-        [&](Index p, Index q, const Vec3d& across, const Vec3d& middle) {
-          add_border(edit_.change_particle(p), q, sign, across, middle);
-          add_border(edit_.change_particle(q), p, sign, Vec3d(-across), middle);
-          touched_.push_back(p);
-          touched_.push_back(q);
-        });
+  explicit CellEdit(StructureEdit& edit)
+      : edit_(edit), scratch_(edit.structure().scratch), borders_(kFewPairs) {
+    const std::size_t count = edit.structure().particles.size();
+    scratch_.has_area_change.begin(count);
+    if (scratch_.area_change.size() < count) scratch_.area_change.resize(count + count / 8 + 16);
   }
 
-  /// Computes the couplings that may have changed.
+  /// Adds a face with the owners of now.
+  void add(const std::array<Index, 3>& points) {
+    divide(face_of(points), owners_of(edit_.structure(), points), 1);
+  }
+  /// Removes a face with the owners from before the edit.
+  void remove(const std::array<Index, 3>& points) {
+    divide(face_of(points), owners_before(points), -1);
+  }
+  /// Moves a face from the owners from before the edit to those of now.
+  void move(const std::array<Index, 3>& points) {
+    const FaceOfCells face = face_of(points);
+    divide(face, owners_before(points), -1);
+    divide(face, owners_of(edit_.structure(), points), 1);
+  }
+
+  /// Writes the sums, and the couplings that they may change.
   void finish() {
-    const Structure& structure = edit_.structure();
-    const std::span<const Index> moved = edit_.moved_seeds();
-    touched_.insert(touched_.end(), moved.begin(), moved.end());
-    std::sort(touched_.begin(), touched_.end());
-    touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
-    for (const Index p : touched_)
-      for (std::size_t i = 0; i < structure.particles[p].neighbours.size(); ++i) {
-        const ParticleNeighbour& neighbour = structure.particles[p].neighbours[i];
-        const double coupling = coupling_of(structure, p, neighbour);
-        if (coupling == neighbour.coupling) continue;
-        const Index q = neighbour.particle;
-        set_coupling(p, q, coupling);
-        set_coupling(q, p, coupling);
-      }
+    for (const Index p : changed_) edit_.change_particle(p).area += scratch_.area_change[p];
+    borders_.for_each([&](const BorderTable::Entry& of) {
+      change_border(of.low(), of.high(), of.edges, of.across, of.middles);
+      change_border(of.high(), of.low(), of.edges, Vec3d(-of.across), of.middles);
+    });
+    borders_.for_each([&](const BorderTable::Entry& of) { couple(of.low(), of.high()); });
+    for (const Index p : edit_.moved_seeds()) {
+      const std::vector<ParticleNeighbour>& neighbours = edit_.structure().particles[p].neighbours;
+      for (std::size_t i = 0; i < neighbours.size(); ++i) couple(p, neighbours[i].particle);
+    }
   }
 
  private:
-  void set_coupling(Index particle, Index other, double coupling) {
+  /// Number of pairs of cells at whose borders a typical operation changes faces.
+  static constexpr std::size_t kFewPairs = 100;
+
+  [[nodiscard]] FaceOfCells face_of(const std::array<Index, 3>& points) const {
+    return {edit_.structure().points.positions, points};
+  }
+  [[nodiscard]] std::array<Index, 3> owners_before(const std::array<Index, 3>& points) const {
+    return {edit_.owner_before(points[0]), edit_.owner_before(points[1]),
+            edit_.owner_before(points[2])};
+  }
+
+  void divide(const FaceOfCells& face, const std::array<Index, 3>& owners, int sign) {
+    face.divide(
+        owners,
+        [&](Index p, double area) {
+          if (scratch_.has_area_change.mark(p)) {
+            scratch_.area_change[p] = 0;
+            changed_.push_back(p);
+          }
+          scratch_.area_change[p] += sign * area;
+        },
+        [&](Index p, Index q, const Vec3d& across, const Vec3d& middle) {
+          borders_.add(p, q, sign, across, middle);
+        });
+  }
+
+  /// Adds to the border of a particle with another one; without edges it is removed.
+  void change_border(Index particle, Index other, int edges, const Vec3d& across,
+                     const Vec3d& middles) {
     std::vector<ParticleNeighbour>& neighbours = edit_.change_particle(particle).neighbours;
+    auto at = std::ranges::lower_bound(neighbours, other, {}, &ParticleNeighbour::particle);
+    if (at == neighbours.end() || at->particle != other) {
+      if (edges <= 0) return;
+      at = neighbours.insert(at, ParticleNeighbour{.particle = other});
+    }
+    at->edges = static_cast<Index>(std::int64_t{at->edges} + edges);
+    at->across += across;
+    at->middles += middles;
+    if (at->edges == 0) neighbours.erase(at);
+  }
+
+  void couple(Index p, Index q) {
+    const ParticleNeighbour* of = neighbour_of(p, q);
+    if (of == nullptr) return;
+    const double coupling = coupling_of(edit_.structure(), p, *of);
+    if (coupling == of->coupling) return;
+    edit_.change_particle(p);
+    edit_.change_particle(q);
+    neighbour_of(p, q)->coupling = coupling;
+    if (ParticleNeighbour* back = neighbour_of(q, p)) back->coupling = coupling;
+  }
+
+  [[nodiscard]] ParticleNeighbour* neighbour_of(Index particle, Index other) const {
+    std::vector<ParticleNeighbour>& neighbours = edit_.structure().particles[particle].neighbours;
     const auto at = std::ranges::lower_bound(neighbours, other, {}, &ParticleNeighbour::particle);
-    if (at != neighbours.end() && at->particle == other) at->coupling = coupling;
+    return at != neighbours.end() && at->particle == other ? &*at : nullptr;
   }
 
   StructureEdit& edit_;
-  std::vector<Index> touched_;
+  RepairScratch& scratch_;
+  BorderTable borders_;
+  std::vector<Index> changed_;  ///< Particles whose area changes.
 };
 
 /// Computes all cells again.
@@ -102,8 +157,7 @@ void move_faces(const StructureEdit& edit, const RewrittenFaces& rewritten, Inde
       return;
     const std::array<Index, 3> points = points_of(surface, triangle);
     if (std::ranges::any_of(points, [&](Index of) { return of < point && has_moved(of); })) return;
-    cells.add(points, -1);
-    cells.add(points, +1);
+    cells.move(points);
   });
 }
 
@@ -169,11 +223,11 @@ void renew_cells(StructureEdit& edit, const RewrittenFaces& rewritten) {
     return a != kNone && b != kNone && c != kNone && a != b && b != c && c != a;
   };
   for (const RewrittenFaces::Face& face : rewritten.faces) {
-    if (is_counted(face.points) && !is_filling(surface, face.triangle)) cells.add(face.points, -1);
-    if (has_cells(surface, face.triangle)) cells.add(points_of(surface, face.triangle), +1);
+    if (is_counted(face.points) && !is_filling(surface, face.triangle)) cells.remove(face.points);
+    if (has_cells(surface, face.triangle)) cells.add(points_of(surface, face.triangle));
   }
   for (Index t = structure.tears.triangle_count; t < surface.triangle_count(); ++t)
-    if (has_cells(surface, t)) cells.add(points_of(surface, t), +1);
+    if (has_cells(surface, t)) cells.add(points_of(surface, t));
   for (std::size_t i = 0; i < edit.taken_up_count(); ++i) {
     const Index point = edit.taken_up(i);
     // All faces around new points are new or rewritten.
