@@ -26,15 +26,23 @@ VertexRef vertex_of(const TornModel& model, Index point) {
   return {ref.mesh, model.character().meshes[ref.mesh].triangles[ref.triangle][corner % 3]};
 }
 
+std::vector<MeshRestTerms> rest_terms_of(const TornModel& model,
+                                         std::span<const Index> first_slot) {
+  std::vector<MeshRestTerms> meshes;
+  meshes.reserve(model.character().meshes.size());
+  for (Index m = 0; m < model.character().meshes.size(); ++m)
+    meshes.emplace_back(model, first_slot, m);
+  return meshes;
+}
+
 void RestChange::begin(Particle& particle) {
-  places_.resize(first_slot_.back(), kNone);
   particle_ = &particle;
   for (Index i = 0; i < particle.terms.size(); ++i) places_[particle.terms[i].slot] = i;
 }
 
 void RestChange::add(const VertexRef& vertex, double sign) {
-  for_each_rest_term(
-      model_, first_slot_, vertex,
+  meshes_[vertex.mesh].for_each(
+      vertex.vertex,
       [&](Index slot, const Vec4d& term) {
         Index& place = places_[slot];
         if (place == kNone) {
@@ -54,41 +62,23 @@ void RestChange::finish() {
 
 RestSums::RestSums(const TornModel& model, std::span<const Index> first_slot,
                    std::span<const VertexRef> vertices)
-    : model_(model), first_slot_(first_slot), vertices_(vertices), of_slot_(first_slot.back()) {
-  for (Index m = 0; m < model.character().meshes.size(); ++m) {
-    const Mesh& mesh = model.character().meshes[m];
-    const bool is_plain =
-        mesh.morph_targets.empty() && model.influence_positions(m).vertices.empty();
-    meshes_.push_back({&mesh, first_slot[mesh.skin], is_plain});
-  }
-}
+    : meshes_(rest_terms_of(model, first_slot)), vertices_(vertices), of_slot_(first_slot.back()) {}
 
 void RestSums::sum(std::span<const Index> members, Particle& particle) {
   particle.terms.clear();
   particle.morph_terms.clear();
-  const auto of_slot = [&](Index slot) -> OfSlot& {
-    OfSlot& of = of_slot_[slot];
-    if (!of.is_listed) slots_.push_back(slot);
-    of.is_listed = true;
-    return of;
-  };
-  for (const Index point : members) {
-    const VertexRef& of = vertices_[point];
-    const OfMesh& of_mesh = meshes_[of.mesh];
-    if (!of_mesh.is_plain) {
-      for_each_rest_term(
-          model_, first_slot_, of,
-          [&](Index slot, const Vec4d& term) { of_slot(slot).sum += term; },
-          [&](Index morph_weight, Index slot, const Vec3d& term) {
-            add(particle.morph_terms, morph_weight, slot, term);
-          });
-      continue;
-    }
-    const Vec3f& at = of_mesh.mesh->positions[of.vertex];
-    const Eigen::Vector4d one = Eigen::Vector4f(at.x(), at.y(), at.z(), 1.0f).cast<double>();
-    for (const Influence& influence : of_mesh.mesh->weights.of(of.vertex))
-      of_slot(of_mesh.first_slot + influence.slot).sum += double{influence.weight} * one;
-  }
+  for (const Index point : members)
+    meshes_[vertices_[point].mesh].for_each(
+        vertices_[point].vertex,
+        [&](Index slot, const Vec4d& term) {
+          OfSlot& of = of_slot_[slot];
+          if (!of.is_listed) slots_.push_back(slot);
+          of.is_listed = true;
+          of.sum += term;
+        },
+        [&](Index morph_weight, Index slot, const Vec3d& term) {
+          add(particle.morph_terms, morph_weight, slot, term);
+        });
   std::sort(slots_.begin(), slots_.end());
   particle.terms.reserve(slots_.size());
   for (const Index slot : slots_) {

@@ -41,11 +41,12 @@ Vec3d SurfacePose::place(const TornModel& model, Index point) const {
   const VertexRef of = vertex_of(model, point);
   if (of.vertex == kNone) return Vec3d::Zero();
   Vec3d sum = Vec3d::Zero();
-  for_each_rest_term(
-      model, first_slots_, of, [&](Index slot, const Vec4d& term) { sum += posed(slot, term); },
-      [&](Index morph_weight, Index slot, const Vec3d& term) {
-        if (morph_weights_[morph_weight] != 0) sum += posed_morph(morph_weight, slot, term);
-      });
+  MeshRestTerms(model, first_slots_, of.mesh)
+      .for_each(
+          of.vertex, [&](Index slot, const Vec4d& term) { sum += posed(slot, term); },
+          [&](Index morph_weight, Index slot, const Vec3d& term) {
+            if (morph_weights_[morph_weight] != 0) sum += posed_morph(morph_weight, slot, term);
+          });
   return sum;
 }
 

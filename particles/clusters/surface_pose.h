@@ -11,7 +11,7 @@
 namespace sunder::particles {
 
 /// A pose of the surface, in double: the one definition of the positions of points and particles in
-/// a pose. Both are sums of the terms of for_each_rest_term(): for a point those of its vertex, for
+/// a pose. Both are sums of the terms of MeshRestTerms: for a point those of its vertex, for
 /// a particle those of its members, which are added up in advance.
 class SurfacePose {
  public:
