@@ -14,9 +14,6 @@
 namespace sunder::particles {
 namespace {
 
-/// Number of points next to the lips that follow() handles; settle() does the rest.
-constexpr Index kPointsAtOnce = 8;
-
 void sort_once(std::vector<Index>& values) {
   std::sort(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());
@@ -225,8 +222,7 @@ void begin_band(StructureEdit& edit, std::span<const Index> lips, bool is_final)
   if (is_final)  // whose lips are all of the tear
     std::erase_if(band.pending.lips,
                   [&](const PendingLips& pending) { return pending.tear == edit.tear(); });
-  Index points = begin_front(edit) + kPointsAtOnce;
-  widen_front(edit, points);
+  (void)begin_front(edit);
   if (is_complete(structure)) structure.tears.band.reset();
 }
 
