@@ -7,6 +7,7 @@
 #include "particles/motion/hold_list.h"
 #include "particles/motion/motion.h"
 #include "particles/motion/moved_vertices.h"
+#include "particles/motion/pose_tension.h"
 #include "particles/motion/rest_motion.h"
 #include "particles/motion/sleep.h"
 
@@ -19,6 +20,7 @@ struct OuterForces {
   bool has_blown = false;  ///< Whether Motion::winds may be other than zero.
   Tension tension;
   bool is_tension_stale = false;  ///< Whether Motion::lip_forces must be recomputed.
+  PoseTension of_pose;            ///< If Tension::adds_pose_strain.
   double time = 0;  ///< Seconds of all steps: the time at which the wind is asked for.
 };
 
@@ -82,6 +84,7 @@ struct BodyState {
   void reserve(Index count);
   void inherit_motion();
   void connect_springs();
+  void pull_lips(const TornModel& model, const ModelPose& pose, bool is_posed);
   void follow_pose(double seconds);
   void find_needed();
   void follow_forces(const TornModel& model, const ModelPose& pose);

@@ -4,6 +4,7 @@
 #include "core/internal/ordered.h"
 #include "particles/body_state.h"
 #include "particles/internal/tolerances.h"
+#include "particles/motion/lip_tension.h"
 #include "particles/motion/stretch_limit.h"
 
 namespace sunder::particles {
@@ -14,8 +15,9 @@ bool BodyState::has_stretch_limit() const {
 }
 
 bool BodyState::is_idle() const {
-  return shown.displaced_count == 0 && options.follow == Follow::ride && !options.tracks_rest &&
-         is_still();
+  const bool feels_pose =
+      options.tracks_rest || (outer.tension.adds_pose_strain && !set->lips().empty());
+  return shown.displaced_count == 0 && options.follow == Follow::ride && !feels_pose && is_still();
 }
 
 bool BodyState::is_still() const {
@@ -69,6 +71,21 @@ void BodyState::follow_pose(double seconds) {
         motion.displacements[p] -= rests.shift(p);
     }
   }
+}
+
+/// Pulls at lips with what the pose adds.
+void BodyState::pull_lips(const TornModel& model, const ModelPose& pose, bool is_posed) {
+  if (!outer.is_tension_stale && (!is_posed || set->lips().empty())) return;
+  outer.of_pose.update(*set, model, poses.at(model, pose, rests.epoch()), materials,
+                       motion.material_of);
+  particles::pull_lips(*set, outer.tension, outer.of_pose.added(), motion, scratch.sums,
+                       scratch.changed);
+  for (const Index p : scratch.changed)
+    if (outer.is_tension_stale)
+      wake_around(p);
+    else
+      Sleep::wake_if_pulled(world(), p, motion);
+  outer.is_tension_stale = false;
 }
 
 void BodyState::follow_forces(const TornModel& model, const ModelPose& pose) {
@@ -148,6 +165,7 @@ void BodyState::step(const TornModel& model, const ModelPose& pose, bool is_pose
     rests.begin_step(pose);
   else
     rests.begin_still_step();
+  if (outer.tension.adds_pose_strain) pull_lips(model, pose, is_posed);
   follow_pose(seconds);
   follow_forces(model, pose);
 

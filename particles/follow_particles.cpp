@@ -34,6 +34,7 @@ ParticleInfluences like_neighbours(const ParticleSet& set, Index particle,
 void BodyState::reserve(Index count) {
   motion.resize(count);
   contact.follow(count);
+  outer.of_pose.resize(count);
   shown.displacements.resize(count, Vec4f::Zero());
   shown.turns.resize(count, Mat3f::Identity());
   shown.is_displaced.resize(count, 0);
@@ -87,9 +88,12 @@ void BodyState::follow_particles() {
 }
 
 void BodyState::connect_springs() {
-  if (graph.is_stale) connect(*set, materials, motion.material_of, graph);
-  if (!outer.is_tension_stale) return;
-  pull_lips(*set, outer.tension, motion, scratch.sums, scratch.changed);
+  if (graph.is_stale) {
+    connect(*set, materials, motion.material_of, graph);
+    outer.is_tension_stale |= outer.tension.adds_pose_strain;  // it depends on the materials
+  }
+  if (!outer.is_tension_stale || outer.tension.adds_pose_strain) return;
+  particles::pull_lips(*set, outer.tension, {}, motion, scratch.sums, scratch.changed);
   outer.is_tension_stale = false;
   for (const Index p : scratch.changed) wake_around(p);
 }

@@ -12,7 +12,7 @@ using particles::BodyState;
 using particles::Motion;
 using particles::Tape;
 
-constexpr std::uint32_t kVersion = 3;
+constexpr std::uint32_t kVersion = 4;
 
 Status out_of_memory() {
   return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
@@ -65,7 +65,7 @@ struct Recorded {
   particles::RestMotion rests;
   Vec3d gravity = Vec3d::Zero();
   double tension = 0, time = 0;
-  bool is_tension_stale = false;
+  bool adds_pose_strain = false, is_tension_stale = false;
   particles::HoldList holds;
   struct OfContact {
     std::vector<Collider> colliders, before;
@@ -90,6 +90,7 @@ Recorded recorded(const BodyState& state) {
           state.outer.gravity,
           state.outer.tension.newtons_per_metre,
           state.outer.time,
+          state.outer.tension.adds_pose_strain,
           state.outer.is_tension_stale,
           state.holds,
           {{colliders.begin(), colliders.end()},
@@ -124,6 +125,7 @@ void describe(Tape& tape, Recorded& of, const ParticleSet& set) {
   of.rests.describe(tape);
   tape(of.gravity);
   for (double* value : {&of.tension, &of.time}) tape(*value);
+  tape(of.adds_pose_strain);
   tape(of.is_tension_stale);
   of.holds.describe(tape, of.motion.count(), set.point_count());
   describe(tape, of.contact.colliders);
@@ -193,6 +195,7 @@ void set_state(Recorded&& of, BodyState& state) {
   state.poses = {};
   state.outer.gravity = of.gravity;
   state.outer.tension.newtons_per_metre = of.tension;
+  state.outer.tension.adds_pose_strain = of.adds_pose_strain;
   state.outer.time = of.time;
   state.outer.has_blown = true;
   state.outer.is_tension_stale = of.is_tension_stale;

@@ -117,6 +117,10 @@ inline constexpr double kReleaseOfMean = 1.39;
 /// squared trace.
 inline constexpr double kRowDeterminantFraction = 1e-4;
 
+/// A strain below this, times the distance from the origin by that of a particle's neighbours, is
+/// the rounding of positions.
+inline constexpr double kRoundedStrain = 1e-6;
+
 // ---- Solvers.
 
 /// Least compliance of a hold, as a fraction of that of the tissue it pulls. A stiffer hold would

@@ -18,24 +18,35 @@ Vec3d pull_of(const LipEdge& lip, std::span<const Vec3f> positions, const Tensio
   return tension.newtons_per_metre / (length * length) * dot(direction, inward) * direction;
 }
 
+/// The pull with what the pose adds, without the part that would push the lip into the opening.
+Vec3d with_added(const Vec3d& pull, const Mat3d& added, const LipEdge& lip) {
+  const Vec3d inward = lip.inward.cast<double>();
+  const Vec3d sum = pull + multiply(added, inward);
+  const double along = dot(sum, inward);
+  return along < 0 ? Vec3d(sum - along / squared_norm(inward) * inward) : sum;
+}
+
 }  // namespace
 
 void add_lip_forces(std::span<const LipEdge> lips, std::span<const Vec3f> positions,
                     std::span<const Index> owners, const Tension& tension,
-                    std::span<Vec3d> forces) {
-  if (!(tension.newtons_per_metre > 0)) return;
+                    std::span<const Mat3d> added, std::span<Vec3d> forces) {
+  if (!(tension.newtons_per_metre > 0) && added.empty()) return;
   for (const LipEdge& lip : lips) {
-    const Vec3d half = 0.5 * pull_of(lip, positions, tension);
-    for (const Index point : lip.points)
-      if (owners[point] != kNone) forces[owners[point]] += half;
+    const Vec3d pull = pull_of(lip, positions, tension);
+    for (const Index point : lip.points) {
+      const Index owner = owners[point];
+      if (owner == kNone) continue;
+      forces[owner] += 0.5 * (added.empty() ? pull : with_added(pull, added[owner], lip));
+    }
   }
 }
 
-void pull_lips(const ParticleSet& set, const Tension& tension, Motion& motion,
-               std::vector<Vec3d>& scratch, std::vector<Index>& changed) {
+void pull_lips(const ParticleSet& set, const Tension& tension, std::span<const Mat3d> added,
+               Motion& motion, std::vector<Vec3d>& scratch, std::vector<Index>& changed) {
   scratch.assign(motion.count(), Vec3d::Zero());
   changed.clear();
-  add_lip_forces(set.lips(), set.positions(), set.owners(), tension, scratch);
+  add_lip_forces(set.lips(), set.positions(), set.owners(), tension, added, scratch);
   for (Index p = 0; p < motion.count(); ++p)
     if (motion.lip_forces[p] != scratch[p]) {
       motion.lip_forces[p] = scratch[p];

@@ -9,13 +9,17 @@ namespace sunder::particles {
 /// Adds the force of the tension at lips, where the tissue across the edge no longer balances it:
 /// half of an edge's force on the cell of each of its ends.
 /// @param positions, owners  per point.
+/// @param added  per particle, as PoseTension::added(): adds to the tension, but lips are never
+///         pushed. Empty: nothing is added.
 /// @param forces  per particle, added to: newtons, in the decomposition's pose.
 void add_lip_forces(std::span<const LipEdge> lips, std::span<const Vec3f> positions,
-                    std::span<const Index> owners, const Tension& tension, std::span<Vec3d> forces);
+                    std::span<const Index> owners, const Tension& tension,
+                    std::span<const Mat3d> added, std::span<Vec3d> forces);
 
-/// Writes Motion::lip_forces. @param changed  written: particles whose force changed. O(particles +
-/// lip edges).
-void pull_lips(const ParticleSet& set, const Tension& tension, Motion& motion,
-               std::vector<Vec3d>& scratch, std::vector<Index>& changed);
+/// Writes Motion::lip_forces. O(particles + lip edges).
+/// @param added  as in add_lip_forces().
+/// @param changed  written: particles whose force changed.
+void pull_lips(const ParticleSet& set, const Tension& tension, std::span<const Mat3d> added,
+               Motion& motion, std::vector<Vec3d>& scratch, std::vector<Index>& changed);
 
 }  // namespace sunder::particles

@@ -16,10 +16,11 @@ struct Slit {
       {{0, 1}, {0, 1, 0}}, {{1, 2}, {0, 1, 0}}, {{3, 4}, {0, -1, 0}}, {{4, 5}, {0, -1, 0}}};
   std::vector<Index> owners = {0, 0, 1, 2, 2, 3};
 
-  [[nodiscard]] std::array<Vec3d, 4> forces(const Tension& tension) const {
+  [[nodiscard]] std::array<Vec3d, 4> forces(const Tension& tension,
+                                            std::span<const Mat3d> added = {}) const {
     std::array<Vec3d, 4> found;
     found.fill(Vec3d::Zero());
-    particles::add_lip_forces(lips, positions, owners, tension, found);
+    particles::add_lip_forces(lips, positions, owners, tension, added, found);
     return found;
   }
 };

@@ -44,6 +44,10 @@ struct Tension {
   /// direction only, such as along Langer's lines of skin. Values that are not finite count as
   /// none. Must not throw.
   std::function<Vec3d(const Vec3d& place)> direction;
+  /// Whether the pose adds to it: tissue that bones stretch relative to the decomposition's pose
+  /// pulls more at its lips, by membrane_stiffness times the strain, and tissue that they compress
+  /// less. Lips are never pushed together. Costs O(lip edges) in each step of another pose.
+  bool adds_pose_strain = false;
 };
 
 struct HoldOptions {

@@ -1,0 +1,95 @@
+#include "particles/motion/pose_tension.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/internal/ordered.h"
+#include "particles/internal/tolerances.h"
+
+namespace sunder::particles {
+namespace {
+
+/// The direction across a plane, from moments in it: the longest column of their adjugate.
+Vec3d across(const Mat3d& moments) {
+  Vec3d longest = Vec3d::Zero();
+  for (int i = 0; i < 3; ++i) {
+    const Vec3d column = moments.col((i + 1) % 3).cross(moments.col((i + 2) % 3));
+    if (squared_norm(column) > squared_norm(longest)) longest = column;
+  }
+  return normalized(longest);
+}
+
+/// The square root of a symmetric positive semidefinite matrix.
+Eigen::Matrix2d root_of(const Eigen::Matrix2d& m) {
+  const double root = std::sqrt(std::max(0.0, m(0, 0) * m(1, 1) - m(0, 1) * m(1, 0)));
+  const double sum = std::sqrt(std::max(0.0, trace(m) + 2 * root));
+  if (!(sum > 0)) return Eigen::Matrix2d::Zero();
+  return (m + root * Eigen::Matrix2d::Identity()) / sum;
+}
+
+}  // namespace
+
+Mat3d strain_of(const Mat3d& moments, const Mat3d& moved) {
+  const Vec3d normal = across(moments);
+  if (normal.isZero(0)) return Mat3d::Zero();
+  Eigen::Matrix<double, 3, 2> plane;
+  plane.col(0) = normal.unitOrthogonal();
+  plane.col(1) = normal.cross(plane.col(0));
+  const Eigen::Matrix2d in_plane = multiply(plane.transpose(), multiply(moments, plane));
+  const double size = trace(in_plane),
+               determinant = in_plane(0, 0) * in_plane(1, 1) - in_plane(0, 1) * in_plane(1, 0);
+  if (!(determinant > kRowDeterminantFraction * size * size)) return Mat3d::Zero();
+  Eigen::Matrix2d adjugate;
+  adjugate << in_plane(1, 1), -in_plane(0, 1), -in_plane(1, 0), in_plane(0, 0);
+  const Eigen::Matrix<double, 3, 2> gradient =
+      multiply(multiply(moved, plane), Eigen::Matrix2d(adjugate / determinant));
+  const Eigen::Matrix2d strain =
+      root_of(multiply(gradient.transpose(), gradient)) - Eigen::Matrix2d::Identity();
+  return multiply(plane, multiply(strain, plane.transpose()));
+}
+
+void PoseTension::resize(Index particles) {
+  added_.resize(particles, Mat3d::Zero());
+  posed_seeds_.resize(particles);
+  is_posed_.grow(particles);
+  is_known_.grow(particles);
+}
+
+void PoseTension::update(const ParticleSet& set, const TornModel& model, const SurfacePose& pose,
+                         std::span<const SoftMaterial> materials,
+                         std::span<const Index> material_of) {
+  std::fill(added_.begin(), added_.end(), Mat3d::Zero());
+  is_posed_.begin(added_.size());
+  is_known_.begin(added_.size());
+  const auto seed_before = [&](Index particle) { return set.positions()[set.seed(particle)]; };
+  const auto seed_now = [&](Index particle) {
+    if (is_posed_.mark(particle)) posed_seeds_[particle] = pose.place(model, set.seed(particle));
+    return posed_seeds_[particle];
+  };
+  const auto evaluate = [&](Index particle) {
+    Mat3d moments = Mat3d::Zero(), moved = Mat3d::Zero();
+    double couplings = 0;
+    for (const ParticleNeighbour& of : set.neighbours(particle)) {
+      const Vec3d before = Vec3f(seed_before(of.particle) - seed_before(particle)).cast<double>();
+      const Vec3d now = seed_now(of.particle) - seed_now(particle);
+      moments += of.coupling * before * before.transpose();
+      moved += of.coupling * now * before.transpose();
+      couplings += of.coupling;
+    }
+    const Mat3d strain = strain_of(moments, moved);
+    const double rounding = kRoundedStrain * norm(seed_before(particle));
+    if (squared_norm(strain) * trace(moments) <= rounding * rounding * couplings) return;
+    added_[particle] = materials[material_of[particle]].membrane_stiffness * strain;
+  };
+  for (const LipEdge& lip : set.lips())
+    for (const Index point : lip.points)
+      if (const Index owner = set.owners()[point]; owner != kNone && is_known_.mark(owner))
+        evaluate(owner);
+}
+
+std::size_t PoseTension::memory_bytes() const {
+  return added_.capacity() * sizeof(Mat3d) + posed_seeds_.capacity() * sizeof(Vec3d) +
+         is_posed_.memory_bytes() + is_known_.memory_bytes();
+}
+
+}  // namespace sunder::particles
