@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/internal/ordered.h"
 #include "particles/internal/tolerances.h"
@@ -51,19 +52,20 @@ Mat3d strain_of(const Mat3d& moments, const Mat3d& moved) {
 void PoseTension::resize(Index particles) {
   added_.resize(particles, Mat3d::Zero());
   posed_seeds_.resize(particles);
-  is_posed_.grow(particles);
-  is_known_.grow(particles);
+  is_posed_.resize(particles);
+  is_known_.resize(particles);
 }
 
 void PoseTension::update(const ParticleSet& set, const TornModel& model, const SurfacePose& pose,
                          std::span<const SoftMaterial> materials,
                          std::span<const Index> material_of) {
   std::fill(added_.begin(), added_.end(), Mat3d::Zero());
-  is_posed_.begin(added_.size());
-  is_known_.begin(added_.size());
+  std::fill(is_posed_.begin(), is_posed_.end(), std::uint8_t{0});
+  std::fill(is_known_.begin(), is_known_.end(), std::uint8_t{0});
   const auto seed_before = [&](Index particle) { return set.positions()[set.seed(particle)]; };
   const auto seed_now = [&](Index particle) {
-    if (is_posed_.mark(particle)) posed_seeds_[particle] = pose.place(model, set.seed(particle));
+    if (std::exchange(is_posed_[particle], std::uint8_t{1}) == 0)
+      posed_seeds_[particle] = pose.place(model, set.seed(particle));
     return posed_seeds_[particle];
   };
   const auto evaluate = [&](Index particle) {
@@ -83,13 +85,14 @@ void PoseTension::update(const ParticleSet& set, const TornModel& model, const S
   };
   for (const LipEdge& lip : set.lips())
     for (const Index point : lip.points)
-      if (const Index owner = set.owners()[point]; owner != kNone && is_known_.mark(owner))
+      if (const Index owner = set.owners()[point];
+          owner != kNone && std::exchange(is_known_[owner], std::uint8_t{1}) == 0)
         evaluate(owner);
 }
 
 std::size_t PoseTension::memory_bytes() const {
   return added_.capacity() * sizeof(Mat3d) + posed_seeds_.capacity() * sizeof(Vec3d) +
-         is_posed_.memory_bytes() + is_known_.memory_bytes();
+         is_posed_.capacity() + is_known_.capacity();
 }
 
 }  // namespace sunder::particles

@@ -4,7 +4,6 @@
 #include <sunder/particles/particle_set.h>
 
 #include "particles/clusters/surface_pose.h"
-#include "particles/front/marks.h"
 
 namespace sunder::particles {
 
@@ -28,8 +27,8 @@ class PoseTension {
 
  private:
   std::vector<Mat3d> added_;
-  std::vector<Vec3d> posed_seeds_;  ///< Of the particles in is_posed_.
-  Marks is_posed_, is_known_;
+  std::vector<Vec3d> posed_seeds_;  ///< Where `is_posed_`.
+  std::vector<std::uint8_t> is_posed_, is_known_;
 };
 
 /// How much tissue is stretched, U - I in its plane, from how vectors in it change.
