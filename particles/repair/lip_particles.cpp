@@ -60,9 +60,10 @@ void take_up_small_particles(const StructureEdit& edit, LipChain& chain) {
 
 /// Makes a small particle at the point nearest to a place along the chain.
 void make_small(StructureEdit& edit, LipChain& chain, float along) {
-  const auto after = std::ranges::lower_bound(chain.places, along, {}, &LipChain::Place::along);
-  const LipChain::Place* place = after == chain.places.end() ? &chain.places.back() : &*after;
-  if (after != chain.places.begin() && along - (place - 1)->along < place->along - along) --place;
+  auto place = std::ranges::lower_bound(chain.places, along, {}, &LipChain::Place::along);
+  if (place == chain.places.end() ||
+      (place != chain.places.begin() && along - (place - 1)->along < place->along - along))
+    --place;
   const auto range = static_cast<float>(edit.structure().report.range);
   const auto is_near = [&](const LipChain::OfLip& of) {
     return std::abs(place->along - of.along) < 0.6f * chain.spacing;
