@@ -13,7 +13,7 @@ using particles::Change;
 using particles::Structure;
 using particles::Tape;
 
-constexpr std::uint32_t kVersion = 3;
+constexpr std::uint32_t kVersion = 4;
 
 Status out_of_memory() {
   return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");

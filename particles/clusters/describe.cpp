@@ -68,6 +68,12 @@ void describe(Tape& tape, LipChain& of) {
   tape.small(of.side, 2);
   tape.any(of.length);
   tape(of.depth);
+  tape(of.spacing);
+  for (LipChain::End* end : {&of.front, &of.back}) {
+    tape(end->tip);
+    tape(end->other);
+    tape.any(end->distance);
+  }
   tape.each(of.places, [&](LipChain::Place& place) {
     tape(place.point);
     tape(place.along);
@@ -77,6 +83,7 @@ void describe(Tape& tape, LipChain& of) {
     tape(particle.particle);
     tape(particle.along);
     tape(particle.half_width);
+    tape(particle.is_small);
   });
 }
 
@@ -283,6 +290,7 @@ void describe(Tape& tape, Band& of) {
   tape(of.tear);
   tape.all(of.lips);
   tape(of.is_begun);
+  tape(of.is_final);
   describe_each(tape, of.chains);
   tape(of.growing);
   tape.all(of.unreached);

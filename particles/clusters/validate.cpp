@@ -214,7 +214,12 @@ void Check::band(const Counts& in) {
   for (const Index point : of.lips) require(point < in.points, "a lip of a band");
   for (const Index point : of.unreached) require(point < in.points, "a point to be left");
   for (const LipChain& chain : of.chains) {
-    require(chain.depth > 0, "the depth of a band");
+    require(chain.depth > 0 && chain.spacing >= 0, "the depth of a band, or its spacing");
+    require(!chain.places.empty(), "a lip without points");
+    for (const LipChain::End& end : {chain.front, chain.back})
+      require((end.tip == kNone || end.tip < in.points) &&
+                  (end.other == kNone || end.other < of.chains.size()),
+              "the end of a lip");
     for (const LipChain::Place& place : chain.places)
       require(place.point < in.points, "a place on a lip");
     for (const LipChain::OfLip& particle : chain.particles)

@@ -188,6 +188,30 @@ TEST(saved_particles, go_on_with_the_same_bits) {
   }
 }
 
+TEST(saved_particles, go_on_while_the_surface_beside_a_lip_is_settled) {
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const Shared shared(test::make_sheet(60));  // fine enough for small particles at lips
+    Instance first(shared.character, shared.asset, shared.pose),
+        second(shared.character, shared.asset, shared.pose);
+    const double y = random.uniform(0.2, 0.8), slant = random.uniform(-0.1, 0.1);
+    const Stroke stroke = {test::down_at(0.25, y), test::down_at(0.75, y + slant)};
+    ChangeRecord change;
+    ASSERT_TRUE(first.model->tear(shared.pose, stroke, {}, &change));
+    ASSERT_TRUE(first.set->follow(*first.model, {&change, 1}));
+    // The state is saved before the work that is left, in it, or at its end.
+    ASSERT_TRUE(first.set->settle(*first.model, 1 + 90 * static_cast<std::uint32_t>(seed)));
+    ASSERT_TRUE(first.body->step(*first.model, shared.pose, 1.0 / 60, 0));
+    ASSERT_NO_FATAL_FAILURE(restore(shared, first, shared.pose, second));
+    for (bool has_more = true; has_more;) {
+      has_more = first.set->settle(*first.model, 100);
+      ASSERT_EQ(second.set->settle(*second.model, 100), has_more);
+      ASSERT_NO_FATAL_FAILURE(expect_same(first, second, shared.pose));
+    }
+  }
+}
+
 /// Every number of a state is replaced by odd ones: the call fails, or what it makes can be used.
 TEST(saved_particles, survive_damaged_states) {
   Random random(5);
