@@ -11,7 +11,7 @@ std::size_t bytes_of(const std::vector<T>& values) {
 std::size_t bytes_of(const Motion& motion) {
   std::size_t bytes = bytes_of(motion.serials) + bytes_of(motion.material_of) +
                       bytes_of(motion.awake) + bytes_of(motion.touched) + bytes_of(motion.bound) +
-                      bytes_of(motion.quiet.seconds);
+                      bytes_of(motion.tired) + bytes_of(motion.quiet.seconds);
   for (const auto* column :
        {&motion.displacements, &motion.velocities, &motion.starts, &motion.forces,
         &motion.lip_forces, &motion.winds, &motion.quiet.from, &motion.quiet.pulls})

@@ -21,6 +21,7 @@ struct OuterForces {
   Tension tension;
   bool is_tension_stale = false;  ///< Whether Motion::lip_forces must be recomputed.
   PoseTension of_pose;            ///< If Tension::adds_pose_strain.
+  bool is_disturbed = false;      ///< Whether something changed since the last step.
   double time = 0;  ///< Seconds of all steps: the time at which the wind is asked for.
 };
 
@@ -88,10 +89,11 @@ struct BodyState {
   void follow_pose(double seconds);
   void find_needed();
   void follow_forces(const TornModel& model, const ModelPose& pose);
+  void find_active();
   void integrate(double seconds);
   void publish(bool is_posed);
   [[nodiscard]] Sleep::World world() const {
-    return {*set, graph, materials, rests, outer.gravity};
+    return {*set, graph, materials, rests, outer.gravity, sleep.tolerance()};
   }
   [[nodiscard]] bool has_stretch_limit() const;
 };

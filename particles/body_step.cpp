@@ -105,6 +105,13 @@ void BodyState::follow_forces(const TornModel& model, const ModelPose& pose) {
   holds.begin_step(model, pose, rests, graph.masses, poses, motion);
 }
 
+/// Lists the particles that are awake.
+void BodyState::find_active() {
+  scratch.active.clear();
+  for (Index p = 0; p < motion.count(); ++p)
+    if (motion.awake[p] != 0) scratch.active.push_back(p);
+}
+
 /// Integrates the particles that are awake: each alone in closed form, then the corrections by
 /// neighbours and holds.
 void BodyState::integrate(double seconds) {
@@ -166,13 +173,17 @@ void BodyState::step(const TornModel& model, const ModelPose& pose, bool is_pose
   else
     rests.begin_still_step();
   if (outer.tension.adds_pose_strain) pull_lips(model, pose, is_posed);
+  const bool is_disturbed = is_posed || outer.is_disturbed || outer.wind || contact.is_changed();
+  sleep.count_still_seconds(seconds, is_disturbed);
+  outer.is_disturbed = false;
+  if (is_disturbed)
+    for (Index p = 0; p < motion.count(); ++p)
+      if (motion.tired[p] != 0) motion.wake(p);
   follow_pose(seconds);
   follow_forces(model, pose);
 
-  std::vector<Index>& active = scratch.active;
-  active.clear();
-  for (Index p = 0; p < motion.count(); ++p)
-    if (motion.awake[p] != 0) active.push_back(p);
+  const std::vector<Index>& active = scratch.active;
+  find_active();
   if (!active.empty() && seconds > 0) {
     integrate(seconds);
     if (has_stretch_limit()) limit_stretch({graph, rests, active}, motion, scratch.changed);
@@ -180,6 +191,7 @@ void BodyState::step(const TornModel& model, const ModelPose& pose, bool is_pose
   contact.push_out({*set, model, pose, is_posed, graph, rests, poses, seconds}, motion);
   contact.end_step();
   if (seconds > 0) {
+    find_active();  // contacts may have roused some
     sleep.wake_neighbours(world(), active, motion);
     sleep.fall_asleep(world(), active, seconds, motion);
   }

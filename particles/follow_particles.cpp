@@ -99,12 +99,14 @@ void BodyState::connect_springs() {
 }
 
 void BodyState::wake_around(Index particle) {
+  outer.is_disturbed = true;
   motion.wake(particle);
   for (const ParticleNeighbour& neighbour : set->neighbours(particle))
     motion.wake(neighbour.particle);
 }
 
 void BodyState::wake_all() {
+  outer.is_disturbed = true;
   for (Index p = 0; p < motion.count(); ++p) motion.wake(p);
 }
 

@@ -64,8 +64,8 @@ struct Recorded {
   bool is_graph_stale = false;
   particles::RestMotion rests;
   Vec3d gravity = Vec3d::Zero();
-  double tension = 0, time = 0;
-  bool adds_pose_strain = false, is_tension_stale = false;
+  double tension = 0, time = 0, still_seconds = 0;
+  bool adds_pose_strain = false, is_tension_stale = false, is_disturbed = false;
   particles::HoldList holds;
   struct OfContact {
     std::vector<Collider> colliders, before;
@@ -90,8 +90,10 @@ Recorded recorded(const BodyState& state) {
           state.outer.gravity,
           state.outer.tension.newtons_per_metre,
           state.outer.time,
+          state.sleep.still_seconds(),
           state.outer.tension.adds_pose_strain,
           state.outer.is_tension_stale,
+          state.outer.is_disturbed,
           state.holds,
           {{colliders.begin(), colliders.end()},
            {before.begin(), before.end()},
@@ -107,7 +109,7 @@ void describe(Tape& tape, Motion& of) {
   for (auto* column : {&of.displacements, &of.velocities, &of.starts, &of.forces, &of.lip_forces,
                        &of.winds, &of.quiet.from, &of.quiet.pulls})
     tape.all(*column);
-  for (auto* flags : {&of.awake, &of.touched, &of.bound})
+  for (auto* flags : {&of.awake, &of.touched, &of.bound, &of.tired})
     tape.each(*flags, [&](std::uint8_t& flag) { tape.small(flag, 2); });
   tape.all(of.quiet.seconds);
   of.awake_count = 0;
@@ -124,9 +126,10 @@ void describe(Tape& tape, Recorded& of, const ParticleSet& set) {
   tape(of.is_graph_stale);
   of.rests.describe(tape);
   tape(of.gravity);
-  for (double* value : {&of.tension, &of.time}) tape(*value);
+  for (double* value : {&of.tension, &of.time, &of.still_seconds}) tape(*value);
   tape(of.adds_pose_strain);
   tape(of.is_tension_stale);
+  tape(of.is_disturbed);
   of.holds.describe(tape, of.motion.count(), set.point_count());
   describe(tape, of.contact.colliders);
   describe(tape, of.contact.before);
@@ -151,7 +154,7 @@ bool has_count(const Recorded& of, std::size_t count) {
        {&motion.displacements, &motion.velocities, &motion.starts, &motion.forces,
         &motion.lip_forces, &motion.winds, &motion.quiet.from, &motion.quiet.pulls})
     has &= column->size() == count;
-  for (const auto* flags : {&motion.awake, &motion.touched, &motion.bound})
+  for (const auto* flags : {&motion.awake, &motion.touched, &motion.bound, &motion.tired})
     has &= flags->size() == count;
   return has;
 }
@@ -167,7 +170,8 @@ Status check(const Recorded& of, const BodyState& state) {
     return Status::failure(StatusCode::size_mismatch, kNone,
                            "a recorded state of a soft body has %zu particles, the set has %u",
                            count, state.set->particle_count());
-  if (of.contact.colliders.size() != of.contact.before.size() || of.tension < 0 || of.time < 0)
+  if (of.contact.colliders.size() != of.contact.before.size() || of.tension < 0 || of.time < 0 ||
+      of.still_seconds < 0)
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "a recorded state of a soft body has invalid settings");
   for (const Index material : of.motion.material_of)
@@ -199,6 +203,8 @@ void set_state(Recorded&& of, BodyState& state) {
   state.outer.time = of.time;
   state.outer.has_blown = true;
   state.outer.is_tension_stale = of.is_tension_stale;
+  state.outer.is_disturbed = of.is_disturbed;
+  state.sleep.set_still_seconds(of.still_seconds);
   state.holds = std::move(of.holds);
   state.graph.is_stale = true;
 }

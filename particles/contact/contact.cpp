@@ -140,16 +140,19 @@ double Contact::push_once(const World& world, Motion& motion) {
     const Vec3d moved = sum_of(touch.whom, motion.displacements);
     const SurfaceDistance at = distance_to(colliders_[touch.collider], touch.rest + moved);
     if (!(at.distance < 0)) continue;
-    bool is_awake = false;
-    for_each_influence(touch.whom, [&](Index p, double) { is_awake |= motion.awake[p] != 0; });
-    if (!is_awake && -at.distance < 2 * touch.tolerance) continue;  // it fell asleep so
+    bool is_awake = false, is_restless = false;
+    for_each_influence(touch.whom, [&](Index p, double) {
+      is_awake |= motion.awake[p] != 0;
+      is_restless |= motion.awake[p] != 0 && motion.quiet.seconds[p] < kQuietSeconds;
+    });
+    if (!is_restless && -at.distance < 2 * touch.tolerance) continue;  // it may sleep so
     deepest = std::max(deepest, -at.distance / touch.tolerance);
     touch.normal = at.normal;
     const Vec3d by = -at.distance * at.normal - drag_back(world, motion, touch, moved, at);
     touch.depth += -at.distance;
     add_to(touch.whom, touch.squares, by, motion.displacements);
     for_each_influence(touch.whom, [&](Index p, double) {
-      if (motion.awake[p] == 0) motion.wake(p);
+      if (motion.awake[p] == 0) is_awake ? motion.rouse(p) : motion.wake(p);
       motion.touched[p] = motion.bound[p] = 1;
     });
   }

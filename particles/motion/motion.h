@@ -26,6 +26,8 @@ struct Motion {
   std::vector<std::uint8_t> touched;  ///< By a collider.
   /// Held, touched or at a stretch limit: the particle may be at rest without forces in balance.
   std::vector<std::uint8_t> bound;
+  /// Asleep although it is not at rest alone, because it moved with bound ones in a still world.
+  std::vector<std::uint8_t> tired;
   Quiet quiet;
   Index awake_count = 0;
 
@@ -37,22 +39,28 @@ struct Motion {
     serials.reserve(count);
     material_of.reserve(count);
     for (auto* column : vector_columns()) column->reserve(count);
-    for (auto* flags : {&awake, &touched, &bound}) flags->reserve(count);
+    for (auto* flags : {&awake, &touched, &bound, &tired}) flags->reserve(count);
     quiet.seconds.reserve(count);
 
     serials.resize(count, 0);
     material_of.resize(count, 0);
     for (auto* column : vector_columns()) column->resize(count, Vec3d::Zero());
-    for (auto* flags : {&awake, &touched, &bound}) flags->resize(count, 0);
+    for (auto* flags : {&awake, &touched, &bound, &tired}) flags->resize(count, 0);
     quiet.seconds.resize(count, 0.0);
   }
 
   void wake(Index particle) {
     quiet.seconds[particle] = 0;
     if (awake[particle] != 0) return;
-    awake[particle] = 1;
-    ++awake_count;
+    rouse(particle);
     quiet.from[particle] = displacements[particle];
+  }
+  /// Wakes a particle that stays as quiet as it was: it may fall asleep in the same step.
+  void rouse(Index particle) {
+    if (awake[particle] != 0) return;
+    awake[particle] = 1;
+    tired[particle] = 0;
+    ++awake_count;
   }
 
  private:

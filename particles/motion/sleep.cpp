@@ -1,6 +1,7 @@
 #include "particles/motion/sleep.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/internal/ordered.h"
 #include "particles/internal/tolerances.h"
@@ -25,6 +26,10 @@ Pull pull_on(Index p, const SpringGraph& graph, std::span<const SoftMaterial> ma
   return pull;
 }
 
+double Sleep::tolerance() const {
+  return 1 + std::max(0.0, still_seconds_ - kPatientSeconds) / kTiringSeconds;
+}
+
 void Sleep::wake_if_pulled(const World& world, Index p, Motion& motion) {
   if (motion.awake[p] != 0) return;
   const Pull pull = pull_on(p, world.graph, world.materials, world.rests, world.gravity, motion);
@@ -33,7 +38,8 @@ void Sleep::wake_if_pulled(const World& world, Index p, Motion& motion) {
   double place = displaced > 0
                      ? std::clamp(0.1 * displaced, 0.1 * kAtRestRanges * range, kFeltRanges * range)
                      : kFeltRanges * range;
-  if (motion.bound[p] != 0) place = kFeltBoundRanges * range;
+  if (motion.bound[p] != 0 || motion.tired[p] != 0)
+    place = world.tolerance * kFeltBoundRanges * range;
   const double feels = place * std::max(pull.stiffness, 1.0);
   if (squared_norm(pull.acceleration - motion.quiet.pulls[p]) > feels * feels) motion.wake(p);
 }
@@ -50,18 +56,36 @@ void Sleep::wake_neighbours(const World& world, std::span<const Index> active, M
     }
 }
 
-bool Sleep::is_bound_near(const World& world, Index p, const Motion& motion) {
-  bool is_bound = motion.bound[p] != 0;
-  for (const Spring& spring : world.graph.of(p)) is_bound |= motion.bound[spring.other] != 0;
-  return is_bound;
+/// Finds the bound particles and their neighbours; after kPatientSeconds all that are connected
+/// with bound ones through awake ones.
+void Sleep::find_bound(const World& world, std::span<const Index> active, const Motion& motion) {
+  moves_with_bound_.assign(motion.count(), 0);
+  found_.clear();
+  const auto find = [&](Index p) {
+    if (std::exchange(moves_with_bound_[p], std::uint8_t{1}) == 0) found_.push_back(p);
+  };
+  for (const Index p : active) {
+    if (motion.bound[p] != 0) find(p);
+    for (const Spring& spring : world.graph.of(p))
+      if (motion.bound[spring.other] != 0) find(p);
+  }
+  if (still_seconds_ < kPatientSeconds) return;
+  while (!found_.empty()) {
+    const Index p = found_.back();
+    found_.pop_back();
+    for (const Spring& spring : world.graph.of(p))
+      if (motion.awake[spring.other] != 0) find(spring.other);
+  }
 }
 
 void Sleep::measure(const World& world, std::span<const Index> active, double seconds,
                     Motion& motion) {
+  find_bound(world, active, motion);
   for (const Index p : active) {
-    const bool is_bound = is_bound_near(world, p, motion);
+    const bool is_bound = moves_with_bound_[p] != 0;
     const double range = world.set.range(p), quiet_speed = kQuietRangesPerSecond * range;
-    const double quiet_place = (is_bound ? kQuietBoundRanges : kQuietRanges) * range;
+    const double quiet_place =
+        (is_bound ? world.tolerance * kQuietBoundRanges : kQuietRanges) * range;
     if ((is_bound || squared_norm(motion.velocities[p]) <= quiet_speed * quiet_speed) &&
         squared_norm(motion.displacements[p] - motion.quiet.from[p]) <= quiet_place * quiet_place) {
       motion.quiet.seconds[p] += seconds;
@@ -89,7 +113,7 @@ void Sleep::fall_asleep(const World& world, std::span<const Index> active, doubl
     const Pull pull = pull_on(p, world.graph, world.materials, world.rests, world.gravity, motion);
     const double own = world.materials[motion.material_of[p]].return_stiffness;
     const double balanced = kQuietRanges * world.set.range(p) * (own > 0 ? own : pull.stiffness);
-    if (squared_norm(pull.acceleration) <= balanced * balanced || is_bound_near(world, p, motion))
+    if (squared_norm(pull.acceleration) <= balanced * balanced || moves_with_bound_[p] != 0)
       tired_.push_back(p);
   }
   for (const Index p : tired_) {
@@ -103,6 +127,9 @@ void Sleep::fall_asleep(const World& world, std::span<const Index> active, doubl
       motion.displacements[p].setZero();
     motion.starts[p] = motion.displacements[p];
   }
+  for (const Index p : tired_)
+    if (still_seconds_ >= kPatientSeconds && motion.displacements[p] != Vec3d::Zero())
+      motion.tired[p] = moves_with_bound_[p];
   for (const Index p : tired_)
     motion.quiet.pulls[p] =
         pull_on(p, world.graph, world.materials, world.rests, world.gravity, motion).acceleration;

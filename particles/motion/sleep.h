@@ -26,7 +26,20 @@ class Sleep {
     std::span<const SoftMaterial> materials;
     const RestMotion& rests;
     Vec3d gravity;
+    double tolerance;  ///< Sleep::tolerance().
   };
+
+  /// Counts the time in which nothing outside of the body changed: no pose, force, material, tear
+  /// or collider. @param is_disturbed  whether something changed since the last call.
+  void count_still_seconds(double seconds, bool is_disturbed) {
+    still_seconds_ = is_disturbed ? 0 : still_seconds_ + seconds;
+  }
+  /// By how much more particles in contact or at a limit may tremble and sleep than at first.
+  /// Sweeps over contacts and limits may never find the balance of all of them, but then they only
+  /// repeat a small motion.
+  [[nodiscard]] double tolerance() const;
+  [[nodiscard]] double still_seconds() const { return still_seconds_; }
+  void set_still_seconds(double seconds) { still_seconds_ = seconds; }
 
   /// Wakes a sleeping particle if the pull on it differs from that at which it fell asleep by
   /// enough to move it visibly.
@@ -40,13 +53,16 @@ class Sleep {
                    Motion& motion);
 
  private:
-  static bool is_bound_near(const World& world, Index particle, const Motion& motion);
-  static void measure(const World& world, std::span<const Index> active, double seconds,
-                      Motion& motion);
+  void find_bound(const World& world, std::span<const Index> active, const Motion& motion);
+  void measure(const World& world, std::span<const Index> active, double seconds, Motion& motion);
 
-  std::vector<Index> tired_;
+  std::vector<Index> tired_, found_;
+  /// Per particle: whether it moves with bound ones, so that bound ones keep it from coming to
+  /// rest.
+  std::vector<std::uint8_t> moves_with_bound_;
   std::vector<std::uint64_t> asked_;  // round in which a particle was asked
   std::uint64_t round_ = 0;
+  double still_seconds_ = 0;
 };
 
 }  // namespace sunder::particles

@@ -51,8 +51,9 @@ double pull_together(const LimitedPair& pair, bool is_first_sweep, Motion& motio
   } else if (is_first_sweep) {
     // A particle that fell asleep at its limit is pulled permanently, and wakes only for more than
     // that.
-    const bool feels =
-        motion.bound[pair.q] == 0 || pair.length > (1 + kStretchWakesExcess) * pair.most;
+    const bool is_used_to_it = motion.bound[pair.q] != 0 || motion.tired[pair.q] != 0 ||
+                               motion.quiet.seconds[pair.p] >= kQuietSeconds;
+    const bool feels = !is_used_to_it || pair.length > (1 + kStretchWakesExcess) * pair.most;
     if (feels) pulled.push_back(pair.q);
   }
   return pair.length / pair.most - 1;
@@ -94,7 +95,7 @@ void limit_stretch(const StretchWorld& world, Motion& motion, std::vector<Index>
     first = std::max(first, fastest);
     if (fastest <= kStretchStoppedFraction * first) break;
   }
-  for (const Index p : pulled) motion.wake(p);
+  for (const Index p : pulled) motion.rouse(p);
 }
 
 }  // namespace sunder::particles

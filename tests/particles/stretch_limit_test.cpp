@@ -50,6 +50,21 @@ TEST(stretch_limit, keeps_neighbours_together) {
   EXPECT_LT(stretch[1], 1.3 * 1.01);
 }
 
+TEST(stretch_limit, tissue_held_at_its_limit_falls_asleep) {
+  for (const double limit : {1.1, 1.3, 1.6})
+    for (const double range : {0.06, 0.1, 0.15}) {
+      SoftScene scene(test::make_tube(60, 16, 6), soft_material(limit), range);
+      const std::uint32_t p = scene.nearest({0.5, 3, 0});
+      ASSERT_TRUE(scene.body->set_force(p, {150 * scene.body->mass(p), 0, 0}));
+      scene.run(16);
+      EXPECT_GT(worst_stretch(scene), limit * 0.98);
+      EXPECT_EQ(scene.body->awake_count(), 0u) << limit << " " << range;
+      ASSERT_TRUE(scene.body->set_force(p, Vec3d::Zero()));
+      scene.run(6);
+      EXPECT_EQ(scene.farthest(), 0);
+    }
+}
+
 TEST(stretch_limit, changes_no_bit_if_it_is_not_reached) {
   std::vector<double> found[2];
   for (const bool is_limited : {false, true}) {
