@@ -209,6 +209,7 @@ Result<HoldId> SoftBody::hold(std::uint32_t particle, const Vec3d& target,
   if (Status status = follow(*state_); !status) return status;
   if (Status status = check_particle(*state_, particle); !status) return status;
   if (Status status = check_hold(target, options); !status) return status;
+  state_->outer.is_disturbed = true;
   try {
     return state_->holds.add_particle(*state_->set, particle, target, options.stiffness);
   } catch (const std::bad_alloc&) {
@@ -221,6 +222,7 @@ Result<HoldId> SoftBody::hold_point(std::uint32_t point, const Vec3d& target,
   if (Status status = follow(*state_); !status) return status;
   if (Status status = check_point(*state_, point); !status) return status;
   if (Status status = check_hold(target, options); !status) return status;
+  state_->outer.is_disturbed = true;
   try {
     return state_->holds.add_point(*state_->set, point, target, options.stiffness);
   } catch (const std::bad_alloc&) {
@@ -230,7 +232,10 @@ Result<HoldId> SoftBody::hold_point(std::uint32_t point, const Vec3d& target,
 
 Status SoftBody::move_hold(HoldId hold, const Vec3d& target) {
   if (Status status = check_finite("the target of a hold", target); !status) return status;
-  if (state_->holds.move(hold, target)) return {};
+  if (state_->holds.move(hold, target)) {
+    state_->outer.is_disturbed = true;
+    return {};
+  }
   return Status::failure(StatusCode::not_found, kNone, "hold %llu does not exist",
                          static_cast<unsigned long long>(hold));
 }

@@ -66,9 +66,10 @@ inline constexpr double kFeltBoundRanges = 9e-3;
 inline constexpr double kQuietRangesPerSecond = 1e-3;
 inline constexpr double kQuietSeconds = 0.5;
 /// After kPatientSeconds without a change from outside, the tolerances of bound particles grow by
-/// themselves every kTiringSeconds.
+/// themselves every kTiringSeconds, up to kMostTolerance times.
 inline constexpr double kPatientSeconds = 2;
 inline constexpr double kTiringSeconds = 1;
+inline constexpr double kMostTolerance = 12;
 static_assert(kQuietRanges < kAtRestRanges && kAtRestRanges < kFeltRanges,
               "a sleeping particle must not wake at once");
 static_assert(kQuietBoundRanges < kFeltBoundRanges, "a sleeping particle must not wake at once");

@@ -27,7 +27,7 @@ Pull pull_on(Index p, const SpringGraph& graph, std::span<const SoftMaterial> ma
 }
 
 double Sleep::tolerance() const {
-  return 1 + std::max(0.0, still_seconds_ - kPatientSeconds) / kTiringSeconds;
+  return std::clamp(1 + (still_seconds_ - kPatientSeconds) / kTiringSeconds, 1.0, kMostTolerance);
 }
 
 void Sleep::wake_if_pulled(const World& world, Index p, Motion& motion) {

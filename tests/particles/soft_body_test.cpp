@@ -78,6 +78,22 @@ TEST(soft_body, rings_down_to_exactly_nothing) {
   EXPECT_TRUE(scene.body->moved_vertices(*scene.model, 0).empty());
 }
 
+TEST(soft_body, a_slow_pull_never_falls_asleep) {
+  SoftScene scene(test::make_tube(60, 16, 6), {}, 0.1);
+  const std::uint32_t p = scene.nearest({0.5, 3, 0});
+  const Vec3d from = scene.body->place(p);
+  const auto hold = scene.body->hold(p, from);
+  ASSERT_TRUE(hold);
+  scene.run(3);  // long enough to be patient no more
+  for (int i = 1; i <= 1200; ++i) {
+    // Half of what particles in contact may tremble in half a second.
+    const Vec3d target = from + Vec3d(1e-4 * scene.set->range(p) * i, 0, 0);
+    ASSERT_TRUE(scene.body->move_hold(*hold, target));
+    scene.step(1.0 / 60);
+    ASSERT_LT((scene.body->place(p) - target).norm(), 1e-3 * scene.set->range(p)) << i;
+  }
+}
+
 TEST(soft_body, sags_by_gravity_over_stiffness) {
   SoftMaterial material;
   material.return_stiffness = 500;
