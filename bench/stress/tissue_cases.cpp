@@ -69,7 +69,8 @@ class Tissue {
     if (!body) return refuse(body.error());
     body_ = std::make_unique<SoftBody>(std::move(*body));
     if (random.index(2) == 0)
-      expect(body_->set_tension({test::any_scale(random, 1e-3, 1e6), {}}), "set_tension");
+      expect(body_->set_tension({test::any_scale(random, 1e-3, 1e6), {}, random.index(2) == 0}),
+             "set_tension");
     if (random.index(2) == 0)
       expect(body_->set_gravity(test::any_scale(random, 1e-2, 1e4) * random.direction()),
              "set_gravity");
