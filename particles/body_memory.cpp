@@ -26,8 +26,8 @@ std::size_t bytes_of(const ShownMotion& shown) {
 
 std::size_t bytes_of(const StepScratch& scratch) {
   return bytes_of(scratch.active) + bytes_of(scratch.needed) + bytes_of(scratch.changed) +
-         bytes_of(scratch.is_needed) + bytes_of(scratch.sums) + bytes_of(scratch.corrections) +
-         bytes_of(scratch.steps);
+         bytes_of(scratch.followed) + bytes_of(scratch.is_needed) + bytes_of(scratch.sums) +
+         bytes_of(scratch.corrections) + bytes_of(scratch.steps);
 }
 
 }  // namespace

@@ -38,6 +38,7 @@ struct ShownMotion {
 /// Scratch memory of a step.
 struct StepScratch {
   std::vector<Index> active, needed, changed;
+  std::vector<Index> followed;  ///< Particles that the last change of the set changed.
   std::vector<std::uint8_t> is_needed;
   std::vector<Vec3d> sums;
   std::vector<Vec3d> corrections;  ///< Per particle: by neighbours and holds.

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "particles/body_state.h"
+#include "particles/clusters/structure_of.h"
 #include "particles/motion/inherit.h"
 #include "particles/motion/lip_tension.h"
 
@@ -38,7 +39,8 @@ void BodyState::reserve(Index count) {
   shown.displacements.resize(count, Vec4f::Zero());
   shown.turns.resize(count, Mat3f::Identity());
   shown.is_displaced.resize(count, 0);
-  for (std::vector<Index>* list : {&scratch.active, &scratch.needed, &scratch.changed})
+  for (std::vector<Index>* list :
+       {&scratch.active, &scratch.needed, &scratch.changed, &scratch.followed})
     list->reserve(count);
   scratch.sums.reserve(count);
   scratch.corrections.resize(count);
@@ -64,6 +66,11 @@ void BodyState::follow_particles() {
   if (set->is_broken()) throw std::bad_alloc();  // its data is not consistent
   if (set->revision() == revision) return;
   const Index count = set->particle_count();
+  std::vector<Index>& changed = scratch.followed;
+  const std::vector<Particle>& particles = StructureOf::in(*set).particles;
+  changed.clear();
+  for (Index p = 0; p < count; ++p)
+    if (p >= motion.count() || particles[p].revision > revision) changed.push_back(p);
   Index awake = 0;
   for (Index p = 0; p < std::min(count, motion.count()); ++p) awake += motion.awake[p];
   reserve(count);
@@ -73,14 +80,15 @@ void BodyState::follow_particles() {
       if (p < count) motion.velocities[p] += rests.velocity(p);
     rests.begin_still_step();
   }
-  rests.follow(*set);
+  rests.follow(*set, changed);
   inherit_motion();
   holds.follow(*set);
   graph.is_stale = outer.is_tension_stale = true;
   connect_springs();
-  for (Index p = 0; p < count; ++p) {
+  for (const Index p : changed) {
     shown.turns[p] = rests.turn(p).cast<float>();
     Sleep::wake_if_pulled(world(), p, motion);
+    for (const Spring& spring : graph.of(p)) Sleep::wake_if_pulled(world(), spring.other, motion);
   }
   publish(false);
   ++shown.displaced_key;

@@ -306,6 +306,11 @@ Status SoftBody::step(const TornModel& model, const ModelPose& pose, double seco
         "the model has %u points, the particles have %u; call ParticleSet::follow() first",
         model.point_count(), state.set->point_count());
   const bool is_posed = !state.rests.is_same(pose);
+  if (!is_posed && state.is_still() && state.rests.carried().empty()) {
+    state.outer.time += seconds;
+    state.contact.skip_step();
+    return {};
+  }
   if (is_posed)
     if (Status status = state.set->rest(pose, {}, {}); !status) return status;
   try {

@@ -57,6 +57,7 @@ void exchange_changed(Structure& structure, Change& change, bool is_done) {
   });
   exchange_in_turn(change.changed_particles, is_done, [&](std::pair<Index, Particle>& of) {
     std::swap(structure.particles[of.first], of.second);
+    structure.particles[of.first].revision = structure.revision + 1;
   });
   exchange_in_turn(change.changed_vertices, is_done, [&](Change::OfVertex& of) {
     std::swap(structure.vertex_points.of_mesh[of.mesh][of.vertex], of.point);
@@ -88,6 +89,8 @@ void exchange(Structure& structure, Change& change) {
   for (Index m = 0; m < vertex_points.size(); ++m)
     for (Index vertex = change.vertices[m]; vertex < vertex_points[m].size(); ++vertex)
       structure.journal.vertices.add({m, vertex});
+  for (std::size_t p = change.particles; p < structure.particles.size(); ++p)
+    structure.particles[p].revision = structure.revision + 1;
   structure.points.ends = is_done ? change.ends_before : change.ends_after;
   ++structure.revision;
   for (const Change::OfPoint& of : change.changed_points) structure.dirty.push_back(of.point);

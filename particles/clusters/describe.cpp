@@ -241,6 +241,7 @@ void describe(Tape& tape, LipEdge& of) {
 
 void describe(Tape& tape, Particle& of) {
   tape(of.serial);
+  tape(of.revision);
   tape(of.seed);
   tape(of.range);
   tape(of.member_count);

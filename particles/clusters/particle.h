@@ -21,6 +21,7 @@ struct RestMorphTerm {
 
 struct Particle {
   std::uint64_t serial = 0;
+  std::uint64_t revision = 0;  ///< Structure::revision of its last change.
   Index seed = 0;
   float range = 0;
   Index member_count = 0;

@@ -23,27 +23,29 @@ Mat3d inverse_or_zero(const Mat3d& m) {
 Status RestMotion::begin(const ParticleSet& set, const ModelPose& pose) {
   if (Status status = set.rest(pose, {}, {}); !status) return status;
   decomposition_pose_ = pose_ = pose;
-  follow(set);
+  std::vector<Index> all(set.particle_count());
+  std::iota(all.begin(), all.end(), Index{0});
+  follow(set, all);
   return {};
 }
 
-void RestMotion::follow(const ParticleSet& set) {
+void RestMotion::follow(const ParticleSet& set, std::span<const Index> changed) {
   const Index count = set.particle_count();
   particles_.resize(count);
   for (std::vector<Index>* list : {&moved_, &carried_})
     std::erase_if(*list, [&](Index p) { return p >= count; });
-  stale_.resize(count);
+  stale_.reserve(count);
   moved_.reserve(count);
   carried_.reserve(2 * std::size_t{count});  // for set_velocity()
-  std::iota(stale_.begin(), stale_.end(), Index{0});
-  evaluate(set, decomposition_pose_, stale_);
-  for (Index p = 0; p < count; ++p)
-    particles_[p].decomposition_from_bind = inverse_or_zero(rests_[p].linear);
-  evaluate(set, pose_, stale_);
-  for (Index p = 0; p < count; ++p) {
-    Particle& particle = particles_[p];
-    particle.place = rests_[p].place;
-    const Mat3d relative = multiply(rests_[p].linear, particle.decomposition_from_bind);
+  stale_.clear();
+  evaluate(set, decomposition_pose_, changed);
+  for (std::size_t i = 0; i < changed.size(); ++i)
+    particles_[changed[i]].decomposition_from_bind = inverse_or_zero(rests_[i].linear);
+  evaluate(set, pose_, changed);
+  for (std::size_t i = 0; i < changed.size(); ++i) {
+    Particle& particle = particles_[changed[i]];
+    particle.place = rests_[i].place;
+    const Mat3d relative = multiply(rests_[i].linear, particle.decomposition_from_bind);
     particle.size = norm(relative);
     turn_of(relative, particle.turn);
     particle.epoch = epoch_;

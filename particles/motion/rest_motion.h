@@ -10,9 +10,10 @@ class RestMotion {
  public:
   /// @return as ParticleSet::rest().
   Status begin(const ParticleSet& set, const ModelPose& pose);
-  /// Follows a changed set: evaluates all particles in the current pose. A move caused only by the
-  /// set is not a motion. @throws std::bad_alloc
-  void follow(const ParticleSet& set);
+  /// Follows a changed set: evaluates the particles that changed, in the current pose. A move
+  /// caused only by the set is not a motion.
+  /// @param changed  ascending; all new ones are among them. @throws std::bad_alloc
+  void follow(const ParticleSet& set, std::span<const Index> changed);
 
   /// Whether a pose has the bits of the last one.
   [[nodiscard]] bool is_same(const ModelPose& pose) const;

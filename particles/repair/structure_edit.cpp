@@ -86,6 +86,7 @@ Particle& StructureEdit::change_particle(Index particle) {
   structure_.scratch.logged_particles.grow(particle + 1);
   if (particle < change_.particles && structure_.scratch.logged_particles.mark(particle))
     change_.changed_particles.emplace_back(particle, structure_.particles[particle]);
+  structure_.particles[particle].revision = structure_.revision + 1;
   return structure_.particles[particle];
 }
 
@@ -111,6 +112,7 @@ Index StructureEdit::make_particle(Index seed, float range, const ParticleInflue
   structure_.members.joined.emplace_back();
   Particle& particle = structure_.particles.emplace_back();
   particle.serial = structure_.next_serial++;
+  particle.revision = structure_.revision + 1;
   particle.seed = seed;
   particle.range = range;
   particle.parents = parents;
