@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 
+#include "particles/motion/slit_gap.h"
+
 namespace sunder {
 namespace {
 
@@ -10,6 +12,33 @@ struct Field {
   const char* name;
   double value, least, most;
 };
+
+Status check_argument(const Field& of) {
+  if (!std::isfinite(of.value))
+    return Status::failure(StatusCode::non_finite_value, kNone, "%s is not finite", of.name);
+  if (of.value < of.least || of.value > of.most)
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "%s is %g; it must be from %g to %g", of.name, of.value, of.least,
+                           of.most);
+  return {};
+}
+
+/// The gap of a wound per tension, m^2/N.
+Result<double> gap_per_tension(const SoftMaterial& material, double wound_length) {
+  if (const Status status = validate_material(material); !status) return status;
+  const std::array fields = {
+      Field{"membrane_stiffness", material.membrane_stiffness, 1e-12, 1e12},
+      Field{"wound_length", wound_length, 1e-12, 1e12},
+  };
+  for (const Field& field : fields)
+    if (const Status status = check_argument(field); !status) return status;
+  const double stiffness = material.membrane_stiffness,
+               foundation = material.areal_density * material.return_stiffness;
+  const double half_length = 0.5 * wound_length * std::sqrt(foundation / stiffness);
+  // Without a foundation, or next to none, the gap is an ellipse.
+  const double ratio = half_length > 1e-12 ? particles::slit_gap(half_length) / half_length : 1;
+  return ratio * wound_length / stiffness;
+}
 
 }  // namespace
 
@@ -60,6 +89,21 @@ Result<SoftMaterial> find_material(std::string_view name) {
     if (material.name == name) return material;
   return Status::failure(StatusCode::not_found, kNone, "there is no material '%.*s'",
                          static_cast<int>(std::min<std::size_t>(name.size(), 64)), name.data());
+}
+
+Result<double> gap_under_tension(const SoftMaterial& material, double wound_length,
+                                 double tension) {
+  const Result<double> gap = gap_per_tension(material, wound_length);
+  if (!gap) return gap;
+  if (const Status status = check_argument({"tension", tension, 0.0, 1e12}); !status) return status;
+  return tension * *gap;
+}
+
+Result<double> tension_for_gap(const SoftMaterial& material, double wound_length, double gap) {
+  const Result<double> per_tension = gap_per_tension(material, wound_length);
+  if (!per_tension) return per_tension;
+  if (const Status status = check_argument({"gap", gap, 0.0, 1e12}); !status) return status;
+  return gap / *per_tension;
 }
 
 }  // namespace sunder

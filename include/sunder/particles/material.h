@@ -51,4 +51,21 @@ struct SoftMaterial {
 /// A preset by its name. @return not_found. Thread-safe.
 [[nodiscard]] SUNDER_API Result<SoftMaterial> find_material(std::string_view name);
 
+/// How wide a straight wound of a given length opens in its middle under an even tension
+/// (SoftBody::set_tension()), metres. For a flat surface that goes on for at least the length of
+/// the wound, or two reaches sqrt(S / (rho k)) of the tissue, on all sides. Within 0.1 % of the
+/// membrane's; particles add their own error (docs/particles.md). O(1), thread-safe.
+///
+/// @param wound_length  metres, from tip to tip. [1e-12, 1e12].
+/// @param tension       N/m. [0, 1e12].
+/// @return as validate_material(); also for a membrane_stiffness below 1e-12, and for the other
+///         arguments, which the text names.
+[[nodiscard]] SUNDER_API Result<double> gap_under_tension(const SoftMaterial& material,
+                                                          double wound_length, double tension);
+
+/// The inverse: the tension, N/m, under which the wound opens by `gap` metres, [0, 1e12]. For
+/// example, 0.008 for a wound of 0.06 that gapes by 8 mm.
+[[nodiscard]] SUNDER_API Result<double> tension_for_gap(const SoftMaterial& material,
+                                                        double wound_length, double gap);
+
 }  // namespace sunder
