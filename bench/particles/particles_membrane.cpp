@@ -32,7 +32,7 @@ GapFigures measure(double half_length, double range) {
   figures.widest = gap.widest();
   figures.reference_widest = wanted.widest();
   figures.rms = rms_difference(gap, wanted);
-  figures.asymmetry = asymmetry(gap);
+  figures.asymmetry = asymmetry(gap).most;
   return figures;
 }
 

@@ -41,6 +41,7 @@ GapProfile gap_between(const SlitSheet& sheet, const std::vector<Vec3d>& displac
   Eigen::AlignedBox3f box;
   for (const Vec3f& place : at) box.extend(Eigen::Vector3f(place));
   GapProfile gap;
+  gap.half_length = sheet.half_length;
   for (const std::size_t i : order) {
     gap.x.push_back(x_of(i) - double{box.center().x()});
     gap.width.push_back(
@@ -49,14 +50,16 @@ GapProfile gap_between(const SlitSheet& sheet, const std::vector<Vec3d>& displac
   return gap;
 }
 
-/// The width at a place, linear between those that are known.
+/// The width at a place: its square is linear between those that are known, as it is next to tips.
 double width_at(const GapProfile& gap, double x) {
   const auto after = std::lower_bound(gap.x.begin(), gap.x.end(), x);
-  if (after == gap.x.begin()) return gap.width.front();
-  if (after == gap.x.end()) return gap.width.back();
   const auto i = static_cast<std::size_t>(after - gap.x.begin());
-  const double t = (x - gap.x[i - 1]) / (gap.x[i] - gap.x[i - 1]);
-  return gap.width[i - 1] + t * (gap.width[i] - gap.width[i - 1]);
+  const bool is_first = i == 0, is_last = i == gap.x.size();
+  const double x0 = is_first ? -gap.half_length : gap.x[i - 1],
+               x1 = is_last ? gap.half_length : gap.x[i];
+  const double w0 = is_first ? 0 : gap.width[i - 1], w1 = is_last ? 0 : gap.width[i];
+  const double t = x1 > x0 ? std::clamp((x - x0) / (x1 - x0), 0.0, 1.0) : 1.0;
+  return std::sqrt((1 - t) * w0 * w0 + t * w1 * w1);
 }
 
 }  // namespace
@@ -114,19 +117,20 @@ std::vector<Vec3d> lip_forces(const ParticleSet& set, double newtons_per_metre) 
   return forces;
 }
 
-SlitSheet::SlitSheet(std::uint32_t cells, double half_length, double range,
-                     const SoftMaterial& material, double size) {
+SlitSheet::SlitSheet(std::uint32_t cells, double half, double range, const SoftMaterial& material,
+                     double size, std::uint64_t seed_order)
+    : half_length(size * half) {
   character = std::make_shared<const Character>(make_sheet(cells, static_cast<float>(size)));
   model = std::make_unique<TornModel>(checked(TornModel::create(character)));
   pose = checked(bind_pose(*character));
   set = std::make_unique<ParticleSet>(
-      checked(ParticleSet::create(*model, pose, {size * range, false, 0})));
+      checked(ParticleSet::create(*model, pose, {size * range, false, seed_order})));
   body = std::make_unique<SoftBody>(checked(SoftBody::create(*set, pose, {&material, 1})));
   const auto blade = [&](double x) {
     const double y = 0.503;
     return Blade{{size * x, size * y, size * 0.5}, {size * x, size * y, -0.5 * size}};
   };
-  const Stroke stroke = {blade(0.5 - half_length), blade(0.5 + half_length)};
+  const Stroke stroke = {blade(0.5 - half), blade(0.5 + half)};
   ChangeRecord change;
   (void)checked(model->tear(pose, stroke, {}, &change));
   lips = change.lips;
@@ -163,11 +167,18 @@ double rms_difference(const GapProfile& found, const GapProfile& wanted) {
   return std::sqrt(sum / static_cast<double>(wanted.x.size())) / wanted.widest();
 }
 
-double asymmetry(const GapProfile& gap) {
-  double most = 0;
-  for (std::size_t i = 0; i < gap.x.size(); ++i)
-    most = std::max(most, std::abs(gap.width[i] - width_at(gap, -gap.x[i])));
-  return most / gap.widest();
+Asymmetry asymmetry(const GapProfile& gap) {
+  constexpr int kPlaces = 200;
+  Asymmetry result;
+  double squares = 0;
+  for (int i = 0; i < kPlaces; ++i) {
+    const double part = (i + 0.5) / kPlaces, x = part * gap.half_length;
+    const double difference = std::abs(width_at(gap, x) - width_at(gap, -x)) / gap.widest();
+    squares += difference * difference / kPlaces;
+    if (part < 0.9) result.most = std::max(result.most, difference);
+  }
+  result.rms = std::sqrt(squares);
+  return result;
 }
 
 double difference_from_ellipse(const GapProfile& gap, double half_length) {

@@ -30,13 +30,15 @@ struct SlitSheet {
   std::unique_ptr<ParticleSet> set;
   std::unique_ptr<SoftBody> body;
   std::vector<LipPair> lips;
+  double half_length = 0;  ///< Metres.
 
   /// @param cells  along each edge of the sheet.
   /// @param half_length  of the slit, metres.
   /// @param range  of the particles, metres.
   /// @param size  by which all lengths are multiplied.
+  /// @param seed_order  of the particles' seeds.
   SlitSheet(std::uint32_t cells, double half_length, double range, const SoftMaterial& material,
-            double size = 1);
+            double size = 1, std::uint64_t seed_order = 0);
 
   /// Pulls the lips apart until nothing moves any more.
   void open(double newtons_per_metre);
@@ -45,6 +47,7 @@ struct SlitSheet {
 /// The distance of the lips along a slit, in the order of x.
 struct GapProfile {
   std::vector<double> x, width;  ///< Metres; x from the middle of the slit.
+  double half_length = 0;        ///< Metres: the lips meet at x = -half_length and half_length.
 
   [[nodiscard]] double widest() const;
 };
@@ -55,8 +58,12 @@ GapProfile reference_gap(const SlitSheet& sheet, double newtons_per_metre);
 
 /// Root of the mean squared difference along the slit, relative to the widest gap of the second.
 double rms_difference(const GapProfile& found, const GapProfile& wanted);
-/// Largest difference of the widths at x and -x, relative to the widest.
-double asymmetry(const GapProfile& gap);
+/// The difference of the widths at x and -x, relative to the widest.
+struct Asymmetry {
+  double rms = 0;   ///< Root of the mean square along the slit.
+  double most = 0;  ///< Largest, over the middle nine tenths of the slit.
+};
+Asymmetry asymmetry(const GapProfile& gap);
 /// Root mean square of the difference from a sqrt(1 - (x / half_length)^2) with the best a,
 /// relative to a.
 double difference_from_ellipse(const GapProfile& gap, double half_length);
