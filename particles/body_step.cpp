@@ -3,6 +3,7 @@
 
 #include "core/internal/ordered.h"
 #include "particles/body_state.h"
+#include "particles/internal/angular_frequency.h"
 #include "particles/internal/tolerances.h"
 #include "particles/motion/lip_tension.h"
 #include "particles/motion/stretch_limit.h"
@@ -118,7 +119,8 @@ void BodyState::integrate(double seconds) {
   std::vector<SpringStep>& steps = scratch.steps;
   steps.clear();
   for (const SoftMaterial& material : materials)
-    steps.push_back(step_spring(material.return_stiffness, material.damping_ratio, seconds));
+    steps.push_back(
+        step_spring(squared_frequency(material.return_frequency), material.damping_ratio, seconds));
   for (const Index p : scratch.active) {
     const SpringStep& step = steps[motion.material_of[p]];
     const Vec3d force = motion.forces[p] + multiply(rests.turn(p), motion.lip_forces[p]);

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "particles/internal/angular_frequency.h"
 #include "particles/motion/slit_gap.h"
 
 namespace sunder {
@@ -33,7 +34,8 @@ Result<double> gap_per_tension(const SoftMaterial& material, double wound_length
   for (const Field& field : fields)
     if (const Status status = check_argument(field); !status) return status;
   const double stiffness = material.membrane_stiffness,
-               foundation = material.areal_density * material.return_stiffness;
+               foundation =
+                   material.areal_density * particles::squared_frequency(material.return_frequency);
   const double half_length = 0.5 * wound_length * std::sqrt(foundation / stiffness);
   // Without a foundation, or next to none, the gap is an ellipse.
   const double ratio = half_length > 1e-12 ? particles::slit_gap(half_length) / half_length : 1;
@@ -44,7 +46,7 @@ Result<double> gap_per_tension(const SoftMaterial& material, double wound_length
 
 Status validate_material(const SoftMaterial& material) {
   const std::array fields = {
-      Field{"return_stiffness", material.return_stiffness, 0.0, 1e12},
+      Field{"return_frequency", material.return_frequency, 0.0, 1.6e5},
       Field{"damping_ratio", material.damping_ratio, 0.0, 1e6},
       Field{"membrane_stiffness", material.membrane_stiffness, 0.0, 1e12},
       Field{"membrane_damping", material.membrane_damping, 0.0, 1e12},
@@ -74,12 +76,12 @@ std::span<const SoftMaterial> material_presets() {
   // 911, muscle 1,090, a gel 1,000, a foam 250); tissues after Hasgall et al., IT'IS database,
   // 2018. Stiffnesses and damping are chosen for the look of a model of about a metre.
   static const std::array presets = {
-      SoftMaterial{"skin", 400, 0.7, 9, 0.6, 0.44, 0.08, 1.6, 1.8},
-      SoftMaterial{"fat", 90, 0.35, 3, 0.2, 0.73, 0.12, 0, 2.2},
-      SoftMaterial{"muscle", 900, 0.8, 32, 1.7, 0.85, 0.1, 1.4, 1.6},
-      SoftMaterial{"rubber", 900, 0.15, 25, 0.25, 0.38, 0.1, 3.0, 4.0},
-      SoftMaterial{"sponge", 150, 1.0, 1.5, 0.25, 0.2, 0.12, 0, 1.5},
-      SoftMaterial{"jelly", 60, 0.1, 5, 0.13, 0.8, 0.15, 0, 1.7},
+      SoftMaterial{"skin", 3.2, 0.7, 9, 0.6, 0.44, 0.08, 1.6, 1.8},
+      SoftMaterial{"fat", 1.5, 0.35, 3, 0.2, 0.73, 0.12, 0, 2.2},
+      SoftMaterial{"muscle", 4.8, 0.8, 32, 1.7, 0.85, 0.1, 1.4, 1.6},
+      SoftMaterial{"rubber", 4.8, 0.15, 25, 0.25, 0.38, 0.1, 3.0, 4.0},
+      SoftMaterial{"sponge", 1.95, 1.0, 1.5, 0.25, 0.2, 0.12, 0, 1.5},
+      SoftMaterial{"jelly", 1.23, 0.1, 5, 0.13, 0.8, 0.15, 0, 1.7},
   };
   return presets;
 }

@@ -12,7 +12,7 @@ using particles::BodyState;
 using particles::Motion;
 using particles::Tape;
 
-constexpr std::uint32_t kVersion = 4;
+constexpr std::uint32_t kVersion = 5;
 
 Status out_of_memory() {
   return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
@@ -20,7 +20,7 @@ Status out_of_memory() {
 
 void describe(Tape& tape, SoftMaterial& of) {
   for (double* value :
-       {&of.return_stiffness, &of.damping_ratio, &of.membrane_stiffness, &of.membrane_damping,
+       {&of.return_frequency, &of.damping_ratio, &of.membrane_stiffness, &of.membrane_damping,
         &of.areal_density, &of.range, &of.stretch_limit, &of.strength, &of.toughness})
     tape(*value);
   if (!tape.is_reading()) return;

@@ -67,7 +67,7 @@ sunder::ModelPose lifted(const sunder::Character& character, float angle) {
 sunder::Result<float> catch_ball(const sunder::Character& sheet, const sunder::ParticleSet& set,
                                  const btRigidBody& ball, btDiscreteDynamicsWorld& world) {
   sunder::BulletBodyOptions options;
-  options.return_stiffness = 300;
+  options.return_frequency = 2.75;
   options.neighbour_stiffness = 80;
   options.mass = 0.05;
   options.radius = 0.4;

@@ -21,6 +21,8 @@
 
 #if SUNDER_BENCH_IO
 #include <sunder/io/character_file.h>
+
+#include "particles/internal/angular_frequency.h"
 #endif
 
 namespace sunder::bench {
@@ -153,7 +155,8 @@ void Loop::pose_at(int i) {
 
 void Loop::push() {
   const SoftMaterial& material = body_->materials()[0];
-  const double speed = 0.2 * std::sqrt(material.return_stiffness);  // times the range
+  const double speed =
+      0.2 * particles::angular_frequency(material.return_frequency);  // times the range
   for (std::uint32_t p = 0; p < set_->particle_count(); ++p)
     require(body_->add_impulse(p, body_->mass(p) * speed * set_->range(p) * random_.direction()));
 }

@@ -58,7 +58,7 @@ GapFigures measure_gap_at_200() {
 
 double measure_ellipse_rms() {
   SoftMaterial material;
-  material.return_stiffness = 1;
+  material.return_frequency = 0.16;
   material.damping_ratio = 1;
   constexpr double kHalfLength = 0.12;
   test::SlitSheet sheet(kCells, kHalfLength, kHalfLength / 4, material);

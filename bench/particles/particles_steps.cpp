@@ -14,6 +14,7 @@
 #include "bench/harness/measure.h"
 #include "bench/particles/particles_decompose.h"
 #include "bench/tear/tear_scene.h"
+#include "particles/internal/angular_frequency.h"
 #include "support/machine/random.h"
 
 namespace sunder::bench {
@@ -110,7 +111,8 @@ std::uint32_t count(std::span<const IndexRange> ranges) {
 /// Pushes every particle in another direction, by a fraction of its range.
 void push(const ParticleSet& set, const SoftMaterial& material, test::Random& random,
           SoftBody& body) {
-  const double speed = 0.2 * std::sqrt(material.return_stiffness);  // times the range
+  const double speed =
+      0.2 * particles::angular_frequency(material.return_frequency);  // times the range
   for (std::uint32_t particle = 0; particle < set.particle_count(); ++particle)
     require(body.add_impulse(
         particle, body.mass(particle) * speed * set.range(particle) * random.direction()));

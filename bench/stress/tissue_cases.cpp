@@ -28,7 +28,7 @@ double any_or_none(Random& random, double low, double high) {
 
 SoftMaterial any_material(Random& random) {
   SoftMaterial material;
-  material.return_stiffness = any_or_none(random, 1e-3, 1e9);
+  material.return_frequency = any_or_none(random, 5e-3, 5e3);
   material.membrane_stiffness = any_or_none(random, 1e-3, 1e9);
   material.damping_ratio = any_or_none(random, 1e-3, 1e3);
   material.membrane_damping = any_or_none(random, 1e-3, 1e6);

@@ -16,8 +16,8 @@ Status check(const BulletBodyOptions& options) {
   };
   const auto is_at_least_zero = [](double value) { return value >= 0 && std::isfinite(value); };
   const auto is_positive = [](double value) { return value > 0 && std::isfinite(value); };
-  if (!is_at_least_zero(options.return_stiffness))
-    return refuse("return_stiffness", options.return_stiffness, "finite and not below 0");
+  if (!(options.return_frequency >= 0 && options.return_frequency <= 1e150))
+    return refuse("return_frequency", options.return_frequency, "in [0, 1e150]");
   if (!(options.damping_ratio >= 0 && options.damping_ratio <= 10))
     return refuse("damping_ratio", options.damping_ratio, "in [0, 10]");
   if (!is_at_least_zero(options.neighbour_stiffness))

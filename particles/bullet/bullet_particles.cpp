@@ -4,6 +4,7 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "particles/internal/angular_frequency.h"
 #include "particles/internal/tolerances.h"
 
 namespace sunder::particles {
@@ -176,8 +177,8 @@ void BulletParticles::match(const ParticleSet& set, const Columns& places) {
 
 double BulletParticles::still_speed(double range) const {
   return kBulletStillRanges * range * scale_of(world_from_model_) *
-         std::max(1.0,
-                  std::sqrt(options_.return_stiffness) / std::max(1.0, 2 * options_.damping_ratio));
+         std::max(1.0, angular_frequency(options_.return_frequency) /
+                           std::max(1.0, 2 * options_.damping_ratio));
 }
 
 /// Gives bodies their masses and weights for a substep. A load that rests on a body displaced by u
@@ -186,7 +187,8 @@ double BulletParticles::still_speed(double range) const {
 /// force. An implicit solver for springs and contacts would use about that mass, too.
 void BulletParticles::weigh(double seconds) {
   const SubstepSpring& spring = springs_.return_spring();
-  const double k = options_.return_stiffness, beta = spring.stiffness / (1 + spring.damping);
+  const double k = squared_frequency(options_.return_frequency),
+               beta = spring.stiffness / (1 + spring.damping);
   bodies_.weigh(k > 0 && beta > 0 ? options_.mass * k * seconds / beta : options_.mass, gravity_);
 }
 
@@ -236,7 +238,7 @@ void BulletParticles::pull(double seconds) {
 /// @param velocities  after the substep, relative to rest.
 void BulletParticles::give(double seconds, const Columns& velocities) {
   const double wakes =
-      kBulletWakesStills * std::min(1.0, std::sqrt(options_.return_stiffness) * seconds);
+      kBulletWakesStills * std::min(1.0, angular_frequency(options_.return_frequency) * seconds);
   for (Index i = 0; i < bodies_.count(); ++i) {
     if (scratch_.held[i] != 0) continue;
     btRigidBody& of = bodies_[i];

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "particles/internal/angular_frequency.h"
 #include "particles/internal/tolerances.h"
 
 namespace sunder::particles {
@@ -37,7 +38,7 @@ void clear_held(Columns& columns, const std::vector<char>& held) {
 }  // namespace
 
 SubstepSprings::SubstepSprings(const BulletBodyOptions& options)
-    : return_stiffness_(options.return_stiffness),
+    : return_frequency_(angular_frequency(options.return_frequency)),
       neighbour_stiffness_(options.neighbour_stiffness),
       damping_ratio_(options.damping_ratio) {}
 
@@ -78,7 +79,7 @@ void SubstepSprings::connect(std::vector<Pair> pairs) {
 bool SubstepSprings::set_substep(double seconds) {
   if (seconds == springs_for_) return false;
   springs_for_ = seconds;
-  return_spring_ = over_substep(std::sqrt(return_stiffness_), damping_ratio_, seconds, kMostDecay);
+  return_spring_ = over_substep(return_frequency_, damping_ratio_, seconds, kMostDecay);
   diagonal_.setConstant(1 + return_spring_.damping);
   for (Pair& pair : pairs_) {
     pair.spring = over_substep(pair.frequency, damping_ratio_, seconds, kMostDecayOfPairs);

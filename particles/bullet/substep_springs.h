@@ -52,7 +52,8 @@ class SubstepSprings {
   void multiply(const Columns& x, Columns& y, const std::vector<char>& held) const;
   [[nodiscard]] double weighted(const Columns& x) const;
 
-  double return_stiffness_, neighbour_stiffness_, damping_ratio_;
+  double return_frequency_;  ///< Radians per second.
+  double neighbour_stiffness_, damping_ratio_;
   std::vector<Pair> pairs_;
   double springs_for_ = 0;  ///< The substep that the springs were computed for.
   SubstepSpring return_spring_;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/internal/ordered.h"
+#include "particles/internal/angular_frequency.h"
 #include "particles/internal/tolerances.h"
 
 namespace sunder::particles {
@@ -21,8 +22,9 @@ Pull pull_on(Index p, const SpringGraph& graph, std::span<const SoftMaterial> ma
   Pull pull;
   const Vec3d pushed = gravity + motion.winds[p] + outer / mass;
   pull.is_pushed = pushed != Vec3d::Zero();
-  pull.acceleration = pushed + inner / mass - material.return_stiffness * motion.displacements[p];
-  pull.stiffness = material.return_stiffness + stiffness / mass;
+  const double own = squared_frequency(material.return_frequency);
+  pull.acceleration = pushed + inner / mass - own * motion.displacements[p];
+  pull.stiffness = own + stiffness / mass;
   return pull;
 }
 
@@ -111,7 +113,7 @@ void Sleep::fall_asleep(const World& world, std::span<const Index> active, doubl
     // Neighbours that creep back together hardly pull at one another, although the return spring
     // alone still has to move them.
     const Pull pull = pull_on(p, world.graph, world.materials, world.rests, world.gravity, motion);
-    const double own = world.materials[motion.material_of[p]].return_stiffness;
+    const double own = squared_frequency(world.materials[motion.material_of[p]].return_frequency);
     const double balanced = kQuietRanges * world.set.range(p) * (own > 0 ? own : pull.stiffness);
     if (squared_norm(pull.acceleration) <= balanced * balanced || moves_with_bound_[p] != 0)
       tired_.push_back(p);
@@ -121,7 +123,7 @@ void Sleep::fall_asleep(const World& world, std::span<const Index> active, doubl
     --motion.awake_count;
     motion.velocities[p].setZero();
     const double at_rest = kAtRestRanges * world.set.range(p);
-    if (world.materials[motion.material_of[p]].return_stiffness > 0 && motion.bound[p] == 0 &&
+    if (world.materials[motion.material_of[p]].return_frequency > 0 && motion.bound[p] == 0 &&
         squared_norm(motion.displacements[p]) < at_rest * at_rest &&
         !pull_on(p, world.graph, world.materials, world.rests, world.gravity, motion).is_pushed)
       motion.displacements[p].setZero();

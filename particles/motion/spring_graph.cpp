@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/internal/ordered.h"
+#include "particles/internal/angular_frequency.h"
 #include "particles/internal/tolerances.h"
 
 namespace sunder::particles {
@@ -14,7 +15,7 @@ double harmonic_mean(double a, double b) { return a + b > 0 ? 2 * a * (b / (a + 
 
 /// The stiffness of the foundation per area, N/m^3.
 double foundation_of(const SoftMaterial& material) {
-  return material.areal_density * material.return_stiffness;
+  return material.areal_density * squared_frequency(material.return_frequency);
 }
 
 }  // namespace

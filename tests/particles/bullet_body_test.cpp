@@ -12,6 +12,7 @@
 #include <btBulletDynamicsCommon.h>
 #include <gtest/gtest.h>
 
+#include "particles/frequency_of.h"
 #include "support/models/rigs.h"
 
 namespace sunder {
@@ -172,9 +173,7 @@ TEST_F(BulletBodyTest, a_pulled_particle_swings_as_it_must) {
   constexpr double kFrequency = 2 * std::numbers::pi * kHertz;
   for (const double damping : {0.0, 0.05, 0.2})
     for (const double substep : {1.0 / 30, 1.0 / 60, 1.0 / 240}) {
-      create({.return_stiffness = kFrequency * kFrequency,
-              .damping_ratio = damping,
-              .neighbour_stiffness = 0});
+      create({.return_frequency = kHertz, .damping_ratio = damping, .neighbour_stiffness = 0});
       const std::uint32_t pulled = particle_next_to({0.5, 0.5, 0});
       pull(pulled, {0, 0, 0.1});
       // The time at which it passes through rest, and the extreme displacement between two passes.
@@ -209,7 +208,8 @@ TEST_F(BulletBodyTest, a_pulled_particle_swings_as_it_must) {
 
 TEST_F(BulletBodyTest, neighbours_come_along) {
   load(test::make_sheet(10));
-  create({.return_stiffness = 100, .damping_ratio = 1, .neighbour_stiffness = 80});
+  create(
+      {.return_frequency = test::frequency_of(100), .damping_ratio = 1, .neighbour_stiffness = 80});
   const std::uint32_t held = particle_next_to({0.5, 0.5, 0});
   btRigidBody& hand = body_->body(held);
   world_.removeRigidBody(&hand);  // as a host makes a body kinematic
@@ -240,7 +240,7 @@ TEST_F(BulletBodyTest, springs_of_any_stiffness_stay_bounded) {
   for (const double stiffness : {1e2, 1e4, 1e8, 1e16})
     for (const double neighbour : {0.0, 1e4, 1e8, 1e16})
       for (const double damping : {0.0, 0.1, 1.0, 10.0}) {
-        create({.return_stiffness = stiffness,
+        create({.return_frequency = test::frequency_of(stiffness),
                 .damping_ratio = damping,
                 .neighbour_stiffness = neighbour});
         for (std::uint32_t i = 0; i < set_->particle_count(); ++i)
@@ -276,7 +276,7 @@ TEST_F(BulletBodyTest, a_ball_that_falls_is_carried_by_the_springs) {
   // bodies on them fall slightly.
   world_.getSolverInfo().m_linearSlop = 1e-3f;
   constexpr double kBall = 0.5, kStiffness = 200, kMass = 0.1;
-  create({.return_stiffness = kStiffness,
+  create({.return_frequency = test::frequency_of(kStiffness),
           .damping_ratio = 0.3,
           .neighbour_stiffness = 100,
           .mass = kMass,
@@ -336,7 +336,7 @@ TEST_F(BulletBodyTest, particles_sleep_and_wake_when_the_pose_moves) {
 TEST_F(BulletBodyTest, a_model_that_is_carried_along_lags_only_while_it_speeds_up) {
   load(test::make_sheet(10));
   for (const double seconds : {1.0 / 60, 1.0 / 144, 1.0 / 25}) {
-    create({.return_stiffness = 400, .damping_ratio = 0.7});
+    create({.return_frequency = test::frequency_of(400), .damping_ratio = 0.7});
     Affine3d world_from_model = Affine3d::Identity();
     double most = 0;
     for (int i = 0; i * seconds < 3; ++i) {
@@ -354,7 +354,7 @@ TEST_F(BulletBodyTest, a_model_that_is_carried_along_lags_only_while_it_speeds_u
 
 TEST_F(BulletBodyTest, a_model_that_is_put_elsewhere_takes_displacements_along) {
   load(test::make_sheet(10));
-  create({.return_stiffness = 400, .damping_ratio = 0.1});
+  create({.return_frequency = test::frequency_of(400), .damping_ratio = 0.1});
   const std::uint32_t pulled = particle_next_to({0.5, 0.5, 0});
   pull(pulled, {0, 0.1, 0});
   run(3);
@@ -392,7 +392,7 @@ TEST_F(BulletBodyTest, two_calls_before_a_step_equal_one) {
 
 TEST_F(BulletBodyTest, weight_sags) {
   load(test::make_sheet(10));
-  create({.return_stiffness = 100, .damping_ratio = 0.7, .weight = 0.5});
+  create({.return_frequency = test::frequency_of(100), .damping_ratio = 0.7, .weight = 0.5});
   run(300);
   for (const Vec4f& u : body_->displacements()) EXPECT_NEAR(u.z(), -0.05f, 0.002f);
 }
@@ -466,7 +466,7 @@ TEST_F(BulletBodyTest, bad_arguments_are_refused_by_name) {
     EXPECT_NE(body.error().text().find(name), std::string_view::npos) << body.error().text();
   };
   for (const double bad : {-1.0, kNaN}) {
-    refused({.return_stiffness = bad}, "return_stiffness");
+    refused({.return_frequency = bad}, "return_frequency");
     refused({.damping_ratio = bad}, "damping_ratio");
     refused({.neighbour_stiffness = bad}, "neighbour_stiffness");
     refused({.mass = bad}, "mass");

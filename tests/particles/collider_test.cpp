@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "particles/contact/contact_points.h"
+#include "particles/frequency_of.h"
 #include "particles/motion/epoch_pose.h"
 #include "particles/soft_scene.h"
 #include "skinning/internal/reference.h"
@@ -223,7 +224,7 @@ TEST(collider, every_shape_is_left_at_any_step) {
 
 TEST(collider, a_floor_carries_falling_tissue) {
   SoftMaterial material;
-  material.return_stiffness = 20;
+  material.return_frequency = test::frequency_of(20);
   material.membrane_stiffness = 2;
   material.damping_ratio = 0.5;
   SoftScene scene(test::make_bumpy_ball(1500), material, 0.1);

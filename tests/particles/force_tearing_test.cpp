@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include "particles/frequency_of.h"
 #include "particles/soft_scene.h"
 #include "support/models/rigs.h"
 #include "support/oracles/membrane.h"
@@ -33,7 +34,7 @@ constexpr double kDiagonal = 1.4142135623730951;  ///< Of the sheet.
 /// @param return_stiffness  0: pulled tissue is stretched evenly.
 SoftMaterial tissue(double strength, double return_stiffness = 0) {
   SoftMaterial material;
-  material.return_stiffness = return_stiffness;
+  material.return_frequency = test::frequency_of(return_stiffness);
   material.strength = strength;
   return material;
 }

@@ -11,6 +11,8 @@
 
 #include <gtest/gtest.h>
 
+#include "particles/frequency_of.h"
+#include "particles/internal/angular_frequency.h"
 #include "particles/soft_scene.h"
 #include "support/machine/random.h"
 #include "support/oracles/bessel.h"
@@ -30,8 +32,8 @@ SoftMaterial with_reach(double reach, Random& random) {
   SoftMaterial material;
   material.membrane_stiffness = std::pow(10, random.uniform(0, 2));
   material.areal_density = std::pow(10, random.uniform(-1, 0));
-  material.return_stiffness =
-      material.membrane_stiffness / (material.areal_density * reach * reach);
+  material.return_frequency =
+      test::frequency_of(material.membrane_stiffness / (material.areal_density * reach * reach));
   material.damping_ratio = 1;
   return material;
 }
@@ -169,7 +171,8 @@ double energy(const SoftScene& scene, const SoftMaterial& material) {
   for (std::uint32_t p = 0; p < scene.count(); ++p) {
     const Vec3d u = scene.body->displacement(p);
     sum += 0.5 * scene.body->mass(p) *
-           (scene.body->velocity(p).squaredNorm() + material.return_stiffness * u.squaredNorm());
+           (scene.body->velocity(p).squaredNorm() +
+            particles::squared_frequency(material.return_frequency) * u.squaredNorm());
     for (const ParticleNeighbour& neighbour : scene.set->neighbours(p))
       sum += 0.25 * material.membrane_stiffness * neighbour.coupling *
              (u - scene.body->displacement(neighbour.particle)).squaredNorm();
@@ -182,7 +185,7 @@ TEST(membrane_closed_forms, a_swing_of_the_whole_body_loses_energy_by_its_dampin
   for (int i = 0; i < 12; ++i) {
     SoftMaterial material;
     const double frequency = random.uniform(5, 60);  // Radians per second.
-    material.return_stiffness = frequency * frequency;
+    material.return_frequency = frequency / (2 * kPi);
     material.damping_ratio = random.uniform(0.02, 0.9);
     const double decay = material.damping_ratio * frequency;
     SoftScene scene(test::make_sheet(20), material, std::array{0.2, 0.1, 0.05}[i % 3]);
@@ -212,9 +215,10 @@ double decay_of_a_wave(const SoftMaterial& material, double range, double second
     const double x = double{scene.set->positions()[scene.set->seed(p)].x()};
     EXPECT_TRUE(scene.body->add_impulse(p, {0, 0, scene.body->mass(p) * std::cos(kPi * x)}));
   }
-  const double rate = 2 * material.damping_ratio * std::sqrt(material.return_stiffness);
+  const double rate =
+      2 * material.damping_ratio * particles::angular_frequency(material.return_frequency);
   const double swing =
-      kPi / std::sqrt(material.return_stiffness +
+      kPi / std::sqrt(particles::squared_frequency(material.return_frequency) +
                       kPi * kPi * material.membrane_stiffness / material.areal_density);
   const auto steps_of = [&](double of) { return static_cast<int>(std::lround(of / seconds)); };
   // The energy of a damped swing falls in steps, so its logarithm is averaged over half a swing.
@@ -238,7 +242,7 @@ TEST(membrane_closed_forms, a_wave_loses_energy_by_the_damping_ratio_in_the_limi
   for (const double range : {0.2, 0.1, 0.05})
     for (int i = 0; i < 3; ++i) {
       SoftMaterial material;
-      material.return_stiffness = random.uniform(200, 600);
+      material.return_frequency = test::frequency_of(random.uniform(200, 600));
       material.damping_ratio = random.uniform(0.1, 0.4);
       material.membrane_stiffness = random.uniform(2, 20);
       material.membrane_damping = 0;

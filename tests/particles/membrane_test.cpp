@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "particles/frequency_of.h"
 #include "particles/soft_scene.h"
 
 namespace sunder {
@@ -104,7 +105,7 @@ TEST(membrane, a_gap_of_a_stroke_in_many_calls_is_that_of_one) {
 
 TEST(membrane, a_gap_on_a_weak_foundation_is_an_ellipse) {
   SoftMaterial material;
-  material.return_stiffness = 1;
+  material.return_frequency = test::frequency_of(1);
   material.damping_ratio = 1;
   SlitSheet sheet(160, 0.12, 0.03, material);
   const GapProfile gap = opened(sheet);

@@ -215,7 +215,7 @@ TEST(OutOfMemory, a_step_is_refused_and_the_next_one_continues) {
 TEST(OutOfMemory, a_tear_by_force_is_refused_or_recorded) {
   const auto stretched = [] {
     SoftMaterial material;
-    material.return_stiffness = 0;
+    material.return_frequency = 0;
     material.strength = 1.05;
     auto scene = std::make_unique<SoftScene>(test::make_sheet(10), material, 0.2);
     for (std::uint32_t p = 0; p < scene->count(); ++p) {

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <limits>
 
+#include "particles/frequency_of.h"
 #include "particles/soft_scene.h"
 #include "support/machine/allocation_count.h"
 
@@ -96,7 +97,7 @@ TEST(soft_body, a_slow_pull_never_falls_asleep) {
 
 TEST(soft_body, sags_by_gravity_over_stiffness) {
   SoftMaterial material;
-  material.return_stiffness = 500;
+  material.return_frequency = test::frequency_of(500);
   SoftScene scene = make_tube_scene(material);
   ASSERT_TRUE(scene.body->set_gravity(kDown));
   scene.run(4);
@@ -113,7 +114,7 @@ TEST(soft_body, a_uniform_body_moves_the_same_by_any_step) {
   // Neighbours that move alike do not pull: every particle follows the closed form.
   for (const double ratio : {0.05, 1.0, 3.0}) {
     SoftMaterial material;
-    material.return_stiffness = 100;
+    material.return_frequency = test::frequency_of(100);
     material.damping_ratio = ratio;
     std::vector<Vec3d> found;
     for (const double seconds : {1e-4, 1e-3, 1e-2, 0.1, 1.0}) {
@@ -131,7 +132,7 @@ TEST(soft_body, is_stable_at_any_step_and_stiffness) {
   for (int trial = 0; trial < 60; ++trial) {
     std::vector<SoftMaterial> materials(3);
     for (SoftMaterial& m : materials) {
-      m.return_stiffness = std::pow(10, random.uniform(-3, 12));
+      m.return_frequency = test::frequency_of(std::pow(10, random.uniform(-3, 12)));
       m.membrane_stiffness = std::pow(10, random.uniform(-3, 12));
       m.membrane_damping = std::pow(10, random.uniform(-3, 6));
       m.damping_ratio = random.uniform(0.1, 2);
@@ -219,7 +220,7 @@ TEST(soft_body, rides_with_the_pose) {
   SoftScene scene = make_tube_scene();
   const ModelPose start = scene.pose;
   SoftMaterial none;
-  none.return_stiffness = none.membrane_stiffness = 0;
+  none.return_frequency = none.membrane_stiffness = 0;
   none.damping_ratio = 0;
   ASSERT_TRUE(scene.body->change_material(0, none));
   ASSERT_TRUE(scene.body->add_impulse(5, {0.1 * scene.body->mass(5), 0, 0}));
@@ -255,7 +256,7 @@ TEST(soft_body, lag_does_not_depend_on_the_step) {
   SoftBodyOptions options;
   options.follow = Follow::lag;
   SoftMaterial material;
-  material.return_stiffness = 60;
+  material.return_frequency = test::frequency_of(60);
   material.damping_ratio = 0.2;
   std::vector<Vec3d> moving, after;
   for (const int steps : {2, 20, 400}) {
@@ -283,7 +284,7 @@ TEST(soft_body, velocities_inherit_the_motion_of_the_pose) {
     options.follow = follow;
     options.tracks_rest = true;
     SoftMaterial stiff;
-    stiff.return_stiffness = 1e8;
+    stiff.return_frequency = test::frequency_of(1e8);
     stiff.damping_ratio = 1;
     SoftScene scene = make_tube_scene(stiff, options);
     const ModelPose start = scene.pose;
@@ -321,7 +322,7 @@ TEST(soft_body, distant_particles_stay_asleep) {
 
 TEST(soft_body, a_front_wakes_neighbour_after_neighbour) {
   SoftMaterial material;
-  material.return_stiffness = 20;
+  material.return_frequency = test::frequency_of(20);
   material.membrane_stiffness = 300;
   SoftScene scene(test::make_tube(60, 16, 6), material, 0.08);
   const std::uint32_t held = scene.nearest({0.5, 1, 0});
@@ -373,8 +374,8 @@ TEST(soft_body, the_same_calls_give_the_same_bits) {
 
 TEST(soft_body, other_materials_move_otherwise) {
   SoftMaterial soft, hard;
-  soft.return_stiffness = 100;
-  hard.return_stiffness = 10000;
+  soft.return_frequency = test::frequency_of(100);
+  hard.return_frequency = test::frequency_of(10000);
   soft.membrane_stiffness = hard.membrane_stiffness = 0;
   SoftScene scene(test::make_tube(40, 12, 4), {soft, hard}, 0.1, {});
   ASSERT_TRUE(scene.body->set_material(3, 1));
@@ -383,7 +384,7 @@ TEST(soft_body, other_materials_move_otherwise) {
   scene.run(4);
   EXPECT_NEAR(scene.body->displacement(2).y(), -9.81 / 100, 1e-3);
   EXPECT_NEAR(scene.body->displacement(3).y(), -9.81 / 10000, 1e-3);
-  hard.return_stiffness = 1000;
+  hard.return_frequency = test::frequency_of(1000);
   ASSERT_TRUE(scene.body->change_material(1, hard));
   EXPECT_TRUE(scene.body->is_awake(3));
   scene.run(4);
@@ -613,9 +614,9 @@ TEST(material, is_checked_and_found) {
     change(material);
     return validate_material(material);
   };
-  EXPECT_EQ(fault([](SoftMaterial& m) { m.return_stiffness = kNaN; }).code(),
+  EXPECT_EQ(fault([](SoftMaterial& m) { m.return_frequency = kNaN; }).code(),
             StatusCode::non_finite_value);
-  EXPECT_EQ(fault([](SoftMaterial& m) { m.return_stiffness = 2e12; }).code(),
+  EXPECT_EQ(fault([](SoftMaterial& m) { m.return_frequency = 2e5; }).code(),
             StatusCode::invalid_argument);
   EXPECT_EQ(fault([](SoftMaterial& m) { m.areal_density = 0; }).code(),
             StatusCode::invalid_argument);

@@ -1,5 +1,6 @@
 #include <cstring>
 
+#include "particles/frequency_of.h"
 #include "particles/soft_scene.h"
 
 namespace sunder {
@@ -24,7 +25,7 @@ double worst_stretch(const SoftScene& scene) {
 
 SoftMaterial soft_material(double limit) {
   SoftMaterial material;
-  material.return_stiffness = 40;
+  material.return_frequency = test::frequency_of(40);
   material.membrane_stiffness = 2;
   material.stretch_limit = limit;
   return material;
@@ -82,7 +83,7 @@ TEST(stretch_limit, changes_no_bit_if_it_is_not_reached) {
 
 TEST(stretch_limit, adds_no_momentum) {
   SoftMaterial material = soft_material(1.05);
-  material.return_stiffness = 0;
+  material.return_frequency = 0;
   SoftScene scene(test::make_bumpy_ball(800), material, 0.15);
   ASSERT_TRUE(scene.body->add_impulse(4, {0.02, 0, 0}));
   for (std::uint32_t p = 0; p < scene.count(); ++p)

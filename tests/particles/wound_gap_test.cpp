@@ -9,6 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include "particles/frequency_of.h"
+#include "particles/internal/angular_frequency.h"
 #include "particles/motion/slit_gap.h"
 #include "support/machine/random.h"
 #include "support/oracles/membrane.h"
@@ -26,7 +28,8 @@ TEST(wound_gap, is_that_of_the_integral_equation_within_a_thousandth) {
 
 TEST(wound_gap, has_the_closed_forms_of_short_and_long_wounds) {
   SoftMaterial material;
-  const double foundation = material.areal_density * material.return_stiffness,
+  const double foundation =
+                   material.areal_density * particles::squared_frequency(material.return_frequency),
                reach = std::sqrt(material.membrane_stiffness / foundation);
   // An ellipse as high as 2 T a / S; a long slit gapes by 2 T / sqrt(S rho k).
   EXPECT_NEAR(*gap_under_tension(material, 2e-4 * reach, 3),
@@ -34,7 +37,7 @@ TEST(wound_gap, has_the_closed_forms_of_short_and_long_wounds) {
   EXPECT_NEAR(*gap_under_tension(material, 40 * reach, 3),
               6 / std::sqrt(material.membrane_stiffness * foundation), 1e-6);
   EXPECT_EQ(particles::slit_gap(std::numeric_limits<double>::infinity()), 1);
-  material.return_stiffness = 0;
+  material.return_frequency = 0;
   EXPECT_DOUBLE_EQ(*gap_under_tension(material, 0.3, 3), 3 * 0.3 / material.membrane_stiffness);
 }
 
@@ -45,8 +48,8 @@ TEST(wound_gap, is_that_of_finite_elements) {
     material.membrane_stiffness = std::pow(10, random.uniform(-1, 3));
     material.areal_density = std::pow(10, random.uniform(-1, 1));
     const double reach = random.uniform(0.04, 0.2), half_length = random.uniform(0.08, 0.2);
-    material.return_stiffness =
-        material.membrane_stiffness / (material.areal_density * reach * reach);
+    material.return_frequency =
+        test::frequency_of(material.membrane_stiffness / (material.areal_density * reach * reach));
     const double gap = 0.1 * half_length;
     const Result<double> tension = tension_for_gap(material, 2 * half_length, gap);
     ASSERT_TRUE(tension);
@@ -65,7 +68,7 @@ TEST(wound_gap, and_the_tension_for_it_are_inverse_to_one_another) {
     };
     material.membrane_stiffness = any(-12, 12);
     material.areal_density = any(-12, 12);
-    material.return_stiffness = any(-12, 12);
+    material.return_frequency = test::frequency_of(any(-12, 12));
     const double length = any(-12, 12), gap = any(-12, 12);
     const Result<double> tension = tension_for_gap(material, length, gap);
     ASSERT_TRUE(tension);

@@ -68,7 +68,7 @@ void draw_gap(const std::string& folder) {
 
 void draw_running(const std::string& folder) {
   SoftMaterial tough;
-  tough.return_stiffness = 100;
+  tough.return_frequency = 1.6;
   tough.membrane_stiffness = 8;
   tough.damping_ratio = 1.5;
   SoftMaterial weak = tough;

@@ -19,13 +19,13 @@ class BulletParticles;
 }
 
 struct BulletBodyOptions {
-  /// k: the return spring, as acceleration per displacement, 1/s^2; >= 0. A particle without
-  /// neighbours swings with sqrt(k) / 2 pi hertz.
-  double return_stiffness = 400.0;
+  /// Frequency with which a particle without neighbours and damping swings, hertz, in [0, 1e150].
+  /// Its spring has the stiffness k = (2 pi frequency)^2 by mass.
+  double return_frequency = 3.2;
   /// Damping ratio of every spring, in [0, 10]: 0 swings for ever, 1 returns without swinging.
   double damping_ratio = 0.3;
-  /// The same between neighbours, for the difference of their displacements, times
-  /// ParticleNeighbour::coupling; 1/s^2; >= 0.
+  /// Stiffness by mass of the springs between neighbours, for the difference of their
+  /// displacements, times ParticleNeighbour::coupling; 1/s^2; >= 0.
   double neighbour_stiffness = 100.0;
   double mass = 0.05;     ///< Kilograms per particle; > 0. It matters in contacts.
   double radius = 0.3;    ///< Radius of a particle's sphere, as a fraction of its range; > 0.

@@ -18,9 +18,9 @@ namespace sunder {
 /// so a point force or a wound moves the tissue within a distance of about sqrt(S / (rho k)).
 struct SoftMaterial {
   std::string name;
-  /// k: stiffness of the foundation, by mass, 1/s^2. Its square root is the frequency in radians
-  /// per second. [0, 1e12].
-  double return_stiffness = 400.0;
+  /// Frequency with which tissue swings as a whole, without damping, hertz. It gives the stiffness
+  /// of the foundation by mass: k = (2 pi frequency)^2. [0, 1.6e5].
+  double return_frequency = 3.2;
   /// zeta: damping ratio of the foundation; 1 is critical. [0, 1e6].
   double damping_ratio = 0.7;
   double membrane_stiffness = 4.0;  ///< S, N/m. [0, 1e12].

@@ -10,6 +10,7 @@
 
 #include <Eigen/SparseCholesky>
 
+#include "particles/internal/angular_frequency.h"
 #include "support/models/rigs.h"
 #include "tear/internal/surface.h"
 
@@ -84,7 +85,8 @@ std::vector<Vec3d> solve_membrane(const TornModel& model, std::span<const Vec3f>
       const auto row = static_cast<Eigen::Index>(points[i]);
       has_face[points[i]] = true;
       entries.emplace_back(row, row,
-                           material.areal_density * material.return_stiffness * twice / 6);
+                           material.areal_density *
+                               particles::squared_frequency(material.return_frequency) * twice / 6);
       for (std::size_t j = 0; j < 3; ++j) {
         // The gradient of a corner's function is its opposite edge, turned, over twice the area.
         const Eigen::Vector3d mine = at[(i + 2) % 3] - at[(i + 1) % 3],

@@ -13,7 +13,7 @@ namespace sunder::test {
 /// any particles.
 ///
 /// @param positions  per point.
-/// @param material   its membrane_stiffness, areal_density and return_stiffness count.
+/// @param material   its membrane_stiffness, areal_density and return_frequency count.
 /// @param forces     per point, newtons.
 /// @return metres; 0 at points without a face.
 std::vector<Vec3d> solve_membrane(const TornModel& model, std::span<const Vec3f> positions,
