@@ -72,16 +72,17 @@ Status validate_material(const SoftMaterial& material) {
 }
 
 std::span<const SoftMaterial> material_presets() {
-  // Areal densities are those of a layer of 0.4 mm (skin 1,109 kg/m3, rubber 950) or 0.8 mm (fat
-  // 911, muscle 1,090, a gel 1,000, a foam 250); tissues after Hasgall et al., IT'IS database,
-  // 2018. Stiffnesses and damping are chosen for the look of a model of about a metre.
+  // docs/particles.md has the source of each value, and says which are chosen for their look.
+  // Toughness by membrane stiffness is that of the real tissue.
   static const std::array presets = {
-      SoftMaterial{"skin", 3.2, 0.7, 9, 0.6, 0.44, 0.08, 1.6, 1.8},
-      SoftMaterial{"fat", 1.5, 0.35, 3, 0.2, 0.73, 0.12, 0, 2.2},
-      SoftMaterial{"muscle", 4.8, 0.8, 32, 1.7, 0.85, 0.1, 1.4, 1.6},
-      SoftMaterial{"rubber", 4.8, 0.15, 25, 0.25, 0.38, 0.1, 3.0, 4.0},
-      SoftMaterial{"sponge", 1.95, 1.0, 1.5, 0.25, 0.2, 0.12, 0, 1.5},
-      SoftMaterial{"jelly", 1.23, 0.1, 5, 0.13, 0.8, 0.15, 0, 1.7},
+      SoftMaterial{"skin", 3.2, 0.7, 9, 0.6, 0.44, 0.08, 1.6, 1.54, 0.36},
+      SoftMaterial{"fat", 1.5, 0.35, 3, 0.2, 0.73, 0.12, 0, 2.2, 0.6},
+      SoftMaterial{"muscle", 4.8, 0.8, 32, 1.7, 0.85, 0.1, 1.4, 1.35, 0.8},
+      SoftMaterial{"liver", 2.0, 0.5, 3, 0.2, 0.86, 0.1, 0, 1.4, 0.09},
+      SoftMaterial{"rubber", 4.8, 0.15, 25, 0.25, 0.38, 0.1, 3.0, 2.8, 0.063},
+      SoftMaterial{"foam", 1.95, 1.0, 1.5, 0.25, 0.2, 0.12, 0, 1.5, 0.015},
+      SoftMaterial{"cloth", 1.0, 0.4, 0.7, 0.03, 0.2, 0.1, 1.15, 1.12, 0.004},
+      SoftMaterial{"jelly", 1.23, 0.1, 5, 0.13, 0.8, 0.15, 0, 1.7, 0.1},
   };
   return presets;
 }

@@ -135,7 +135,7 @@ double deepest(const SoftScene& scene) {
 
 TEST(collider, a_ball_pressed_into_a_tube_leaves_no_mark) {
   for (const double friction : {0.0, 0.8}) {
-    SoftScene scene(test::make_tube(80, 24, 6), find_material("sponge").value(), 0.06);
+    SoftScene scene(test::make_tube(80, 24, 6), find_material("foam").value(), 0.06);
     const Collider ball{Collider::Sphere{0.4}, {1.2, 3, 0}, Quatd::Identity(), friction};
     ASSERT_TRUE(scene.body->set_colliders({&ball, 1}));
     scene.run(0.2);

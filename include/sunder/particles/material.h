@@ -30,7 +30,9 @@ struct SoftMaterial {
   double range = 0.1;
   /// Limit for the distance of two neighbours, relative to rest; >= 1, or 0: none.
   double stretch_limit = 0.0;
-  double strength = 0.0;  ///< Stretch at which the tissue tears; > 1, or 0: it never does.
+  /// Stretch at which the tissue tears; > 1, or 0: it never does. Nor does it where stretch_limit
+  /// is less.
+  double strength = 0.0;
   /// Energy that a tear takes per metre of its length, J/m: joules per square metre times
   /// thickness. A tip runs on where the tissue releases at least this. 0: it runs on by the
   /// strength. [0, 1e12].
@@ -44,8 +46,8 @@ struct SoftMaterial {
 ///         Thread-safe.
 [[nodiscard]] SUNDER_API Status validate_material(const SoftMaterial& material);
 
-/// Presets, for models in metres: "skin", "fat", "muscle", "rubber", "sponge", "jelly".
-/// Thread-safe.
+/// Presets, for models in metres: "skin", "fat", "muscle", "liver", "rubber", "foam", "cloth",
+/// "jelly". docs/particles.md has their sources. Thread-safe.
 [[nodiscard]] SUNDER_API std::span<const SoftMaterial> material_presets();
 
 /// A preset by its name. @return not_found. Thread-safe.
