@@ -51,6 +51,9 @@ inline constexpr double kNeedleFraction = 1e-6;
 /// The least part of a coupling that is left where the reach of the tissue, sqrt(S / (rho k)), is
 /// shorter than half of the distance between seeds.
 inline constexpr double kLeastCoupledPart = 0.1;
+/// Coupling of a particle whose seed is in the cell of another one to that one: about that of two
+/// usual neighbours, which is much more than its foundation.
+inline constexpr double kCrowdedCoupling = 1;
 /// Least area of a cell as a part of the squared range, so that every particle has a mass: also
 /// those of walls and caps, and those to whose seed no point is nearest.
 inline constexpr double kLeastCellArea = 0.01;

@@ -1,7 +1,9 @@
 #include "particles/motion/spring_graph.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include "core/internal/ordered.h"
 #include "particles/internal/angular_frequency.h"
@@ -16,6 +18,29 @@ double harmonic_mean(double a, double b) { return a + b > 0 ? 2 * a * (b / (a + 
 /// The stiffness of the foundation per area, N/m^3.
 double foundation_of(const SoftMaterial& material) {
   return material.areal_density * squared_frequency(material.return_frequency);
+}
+
+double least_area_of(const ParticleSet& set, Index particle) {
+  const double range = set.range(particle);
+  return kLeastCellArea * range * range;
+}
+
+/// Particles and those in whose cells their seeds are, from both ends; ascending. The small
+/// particles of a lip may take the whole cell of an older one, seed included. It still moves points
+/// farther off, so it has to come along with the tissue at its seed.
+std::vector<std::array<Index, 2>> crowded_pairs(const ParticleSet& set) {
+  std::vector<std::array<Index, 2>> pairs;
+  for (Index p = 0; p < set.particle_count(); ++p) {
+    const Index owner = set.owners()[set.seed(p)];
+    if (owner == p || owner == kNone) continue;
+    // Where a surface has no area, particles have no cells either, and move freely.
+    if (!(set.area(owner) > least_area_of(set, owner))) continue;
+    pairs.push_back({p, owner});
+    pairs.push_back({owner, p});
+  }
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  return pairs;
 }
 
 }  // namespace
@@ -39,8 +64,7 @@ Spring spring_between(const SoftMaterial& a, const SoftMaterial& b, double coupl
 }
 
 double mass_of(const ParticleSet& set, const SoftMaterial& material, Index particle) {
-  const double range = set.range(particle);
-  return material.areal_density * std::max(set.area(particle), kLeastCellArea * range * range);
+  return material.areal_density * std::max(set.area(particle), least_area_of(set, particle));
 }
 
 void set_frequencies(SpringGraph& graph) {
@@ -65,16 +89,32 @@ void connect(const ParticleSet& set, std::span<const SoftMaterial> materials,
   graph.first.assign(1, 0);
   graph.masses.clear();
   const auto seed_of = [&](Index p) { return set.positions()[set.seed(p)]; };
+  const std::vector<std::array<Index, 2>> crowded = crowded_pairs(set);
+  auto next = crowded.begin();
   for (Index p = 0; p < set.particle_count(); ++p) {
-    for (const ParticleNeighbour& neighbour : set.neighbours(p)) {
+    const auto add = [&](Index other, double coupling) {
       const double squared_distance =
-          squared_norm(Vec3d((seed_of(neighbour.particle) - seed_of(p)).cast<double>()));
-      Spring spring =
-          spring_between(materials[material_of[p]], materials[material_of[neighbour.particle]],
-                         neighbour.coupling, squared_distance);
-      spring.other = neighbour.particle;
+          squared_norm(Vec3d((seed_of(other) - seed_of(p)).cast<double>()));
+      Spring spring = spring_between(materials[material_of[p]], materials[material_of[other]],
+                                     coupling, squared_distance);
+      spring.other = other;
       graph.springs.push_back(spring);
+    };
+    const auto is_next_below = [&](Index end) {
+      return next != crowded.end() && (*next)[0] == p && (*next)[1] < end;
+    };
+    const auto add_crowded = [&] {
+      add((*next++)[1], kCrowdedCoupling);
+      graph.springs.back().stretch_limit = 0;  // The two may be in one place.
+    };
+    for (const ParticleNeighbour& neighbour : set.neighbours(p)) {
+      while (is_next_below(neighbour.particle)) add_crowded();
+      const bool is_crowded = is_next_below(neighbour.particle + 1);
+      add(neighbour.particle,
+          is_crowded ? std::max(kCrowdedCoupling, neighbour.coupling) : neighbour.coupling);
+      if (is_crowded) ++next;
     }
+    while (is_next_below(kNone)) add_crowded();
     graph.first.push_back(static_cast<Index>(graph.springs.size()));
     graph.masses.push_back(mass_of(set, materials[material_of[p]], p));
   }

@@ -132,6 +132,26 @@ TEST(membrane, a_gap_does_not_depend_on_the_mesh) {
   }
 }
 
+TEST(membrane, no_particle_stays_behind_at_a_lip) {
+  // Small particles take the cells of older ones next to a lip, which still move points.
+  std::uint32_t crowded = 0;
+  for (const double range : {0.1, 0.05, 0.025})
+    for (std::uint64_t order = 0; order < 3; ++order) {
+      SlitSheet sheet(160, 0.2, range, {}, 1, order);
+      const double widest = opened(sheet).widest();
+      const std::vector<Vec3d> wanted =
+          test::solve_membrane(*sheet.model, sheet.set->positions(), SoftMaterial(),
+                               test::lip_forces(*sheet.set, kTension));
+      for (std::uint32_t p = 0; p < sheet.set->particle_count(); ++p) {
+        const std::uint32_t seed = sheet.set->seed(p);
+        if (sheet.set->owners()[seed] == p) continue;
+        ++crowded;
+        EXPECT_LT((sheet.body->displacement(p) - wanted[seed]).norm(), 0.1 * widest) << p;
+      }
+    }
+  EXPECT_GT(crowded, 0u);
+}
+
 TEST(membrane, a_gap_is_symmetric_where_the_mesh_is_fine) {
   for (std::uint64_t order = 0; order < 6; ++order) {
     SlitSheet sheet(320, 0.2, 0.05, {}, 1, order);
