@@ -1,11 +1,11 @@
-#include "bench/stress/plot.h"
+#include "bench/harness/plot.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <fstream>
 
-namespace sunder::stress {
+namespace sunder::bench {
 namespace {
 
 constexpr double kWidth = 640, kHeight = 400, kLeft = 60, kRight = 170, kTop = 36, kBottom = 48;
@@ -106,4 +106,4 @@ bool write_svg(const Plot& plot, const std::filesystem::path& file) {
   return out.good();
 }
 
-}  // namespace sunder::stress
+}  // namespace sunder::bench

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace sunder::stress {
+namespace sunder::bench {
 
 /// A line of a plot.
 struct PlotSeries {
@@ -22,4 +22,4 @@ struct Plot {
 /// Writes a plot as SVG. @return false if the file cannot be written.
 [[nodiscard]] bool write_svg(const Plot& plot, const std::filesystem::path& file);
 
-}  // namespace sunder::stress
+}  // namespace sunder::bench

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "bench/harness/cpu_seconds.h"
-#include "bench/stress/plot.h"
+#include "bench/harness/plot.h"
 #include "bench/stress/torn_subject.h"
 #include "support/models/hard_operations.h"
 #include "support/models/random_operations.h"
@@ -36,7 +36,7 @@ class Trial {
   }
 
   /// Prints a row and adds it to a plot. @param trouble  the size of the trouble.
-  void print_row(double trouble, Plot& plot) const {
+  void print_row(double trouble, bench::Plot& plot) const {
     CaseReport report;
     measure(model_, report);
     const std::size_t broken = report.violations.size() + test::broken_laws(model_).size();
@@ -79,18 +79,18 @@ class Table {
   }
   ~Table() {
     if (folder_.empty()) return;
-    if (const auto path = folder_ / file_; !write_svg(plot_, path))
+    if (const auto path = folder_ / file_; !bench::write_svg(plot_, path))
       std::fprintf(stderr, "sunder-stress: cannot write \"%s\"\n", path.c_str());
   }
   Table(const Table&) = delete;
   Table& operator=(const Table&) = delete;
 
-  [[nodiscard]] Plot& plot() { return plot_; }
+  [[nodiscard]] bench::Plot& plot() { return plot_; }
 
  private:
   std::filesystem::path folder_;
   const char* file_;
-  Plot plot_;
+  bench::Plot plot_;
 };
 
 CutOperation random_cut(const Character& source, Random& random) {
@@ -114,7 +114,8 @@ TearOperation tear_on_a_side(const Character& source, const Vec3d& side, Random&
 }
 
 template <class Make>
-void print_sequence(Character character, std::initializer_list<int> counts, Make make, Plot& plot) {
+void print_sequence(Character character, std::initializer_list<int> counts, Make make,
+                    bench::Plot& plot) {
   Trial trial(std::move(character));
   int done = 0;
   for (const int count : counts) {
@@ -124,7 +125,7 @@ void print_sequence(Character character, std::initializer_list<int> counts, Make
 }
 
 /// Twenty operations on a tube that was scaled and moved.
-void print_moved(double scale, double offset, double trouble, Plot& plot) {
+void print_moved(double scale, double offset, double trouble, bench::Plot& plot) {
   Random random(7);
   Character tube = test::make_tube(12, 10, 3);
   for (Vec3f& position : tube.meshes[0].positions)
@@ -142,7 +143,7 @@ void print_moved(double scale, double offset, double trouble, Plot& plot) {
 }
 
 /// Planes that pass a ring of vertices at a distance, one after another from both sides.
-void print_near_planes(double distance, Plot& plot) {
+void print_near_planes(double distance, bench::Plot& plot) {
   Trial trial(test::make_tube(12, 10, 3));
   const ModelPose pose = *bind_pose(trial.model().source());
   const auto positions = test::posed_positions(trial.model().source(), 0, pose);
