@@ -184,11 +184,13 @@ void print_errors(const std::vector<ErrorFigures>& errors) {
   std::printf(
       "Errors of a slit of 0.4 m in a sheet of one metre, 320 x 320 cells, 1.2 N/m, against finite "
       "elements, percent;\nroot mean squares over six orders of seeds.\n"
-      "  range particles   step us   displacement: RMS   greatest     gap   length\n");
+      "  range particles   step us   displacement: RMS   greatest     gap   from    to  asymmetry  "
+      " "
+      "length\n");
   for (const ErrorFigures& of : errors)
-    std::printf("%7.3f %9.0f %9.1f %19.2f %10.1f %7.2f %8.2f\n", of.range, of.particles,
-                of.step_seconds * kMicroseconds, 100 * of.displacement, 100 * of.most, 100 * of.gap,
-                100 * of.length);
+    std::printf("%7.3f %9.0f %9.1f %19.2f %10.1f %7.2f %6.3f %5.3f %10.1f %8.2f\n", of.range,
+                of.particles, of.step_seconds * kMicroseconds, 100 * of.displacement, 100 * of.most,
+                100 * of.gap, of.least_gap, of.greatest_gap, 100 * of.asymmetry, 100 * of.length);
   std::printf("displacement falls with the range to the power %.2f\n", order_of(errors));
 }
 

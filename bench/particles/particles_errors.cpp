@@ -80,7 +80,11 @@ ErrorFigures measure(double range, const Reference& wanted) {
     }
     const test::GapProfile gap = gap_of(sheet);
     figures.displacement += squares / kOrders;
-    add_square(figures.gap, gap.widest() / wanted.gap.widest() - 1);
+    const double width = gap.widest() / wanted.gap.widest();
+    add_square(figures.gap, width - 1);
+    figures.least_gap = order == 0 ? width : std::min(figures.least_gap, width);
+    figures.greatest_gap = std::max(figures.greatest_gap, width);
+    figures.asymmetry = std::max(figures.asymmetry, asymmetry(gap).most);
     add_square(figures.length, open_length(gap) / open_length(wanted.gap) - 1);
   }
   for (double* mean : {&figures.displacement, &figures.gap, &figures.length})

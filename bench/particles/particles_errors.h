@@ -10,9 +10,11 @@ struct ErrorFigures {
   double range = 0;  ///< Metres.
   double particles = 0;
   double step_seconds = 0;
-  double displacement = 0, most = 0;  ///< RMS and greatest over all points, by half the gap.
-  double gap = 0;                     ///< Of the widest gap, relative.
-  double length = 0;  ///< Of the wound, between places three tenths as wide, relative.
+  double displacement = 0, most = 0;       ///< RMS and greatest over all points, by half the gap.
+  double gap = 0;                          ///< Of the widest gap, relative.
+  double least_gap = 0, greatest_gap = 0;  ///< Widest gap of an order, by that of the elements.
+  double asymmetry = 0;  ///< Greatest difference of widths at x and -x, by the widest.
+  double length = 0;     ///< Of the wound, between places three tenths as wide, relative.
 };
 
 /// A slit of 0.4 m in a sheet of a metre, 320 x 320 cells, under a tension of 1.2 N/m, for ranges
