@@ -15,10 +15,10 @@ constexpr std::size_t kPartOfPoints = 8;
 }  // namespace
 
 bool MovedVertices::is_point_displaced(const ParticleInfluences& of) const {
-  bool is = false;
+  unsigned is = 0;  // without branches, which are unpredictable here
   for (std::size_t k = 0; k < 4; ++k)
-    is |= (of.weights[k] > 0) & (is_displaced_[of.particles[k]] != 0);
-  return is;
+    is |= unsigned{of.weights[k] > 0} & unsigned{is_displaced_[of.particles[k]] != 0};
+  return is != 0;
 }
 
 /// Lists the particles that became displaced or stopped. @return the number of their members.
