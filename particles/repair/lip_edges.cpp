@@ -95,8 +95,12 @@ void renew_lip_edges(StructureEdit& edit, std::span<const Index> lips,
   LipEdges edges(edit);
   for (const Index point : lost) edges.forget(point);
   for (const Index point : lips) edges.renew(point);
-  for (Index point = edit.first_new_point(); point < edit.structure().points.count(); ++point)
-    if (edit.surface().point_corner[point] != kNone) edges.renew(point);
+  const PointTable& points = edit.structure().points;
+  const bool has_lips = !lips.empty();  // new points on lips of the tear are among them
+  for (Index point = edit.first_new_point(); point < points.count(); ++point)
+    if (edit.surface().point_corner[point] != kNone &&
+        !(has_lips && points.lip_points[point].tear == edit.tear()))
+      edges.renew(point);
 }
 
 }  // namespace sunder::particles

@@ -39,16 +39,21 @@ class OlderLips {
   std::vector<Particle::OfTear> found_;
 };
 
-void put_on_older_lips(PointTable& points, Index point, std::span<const Particle::OfTear> found) {
+/// @return whether the point was put on a lip.
+bool put_on_older_lips(PointTable& points, Index point, std::span<const Particle::OfTear> found) {
+  bool is_put = false;
   for (const Particle::OfTear& of : found) {
     const auto is_other_side = [&](const Particle::OfTear& other) {
       return other.tear == of.tear && other.side != of.side;
     };
     const bool is_tip = std::ranges::any_of(found, is_other_side);
-    if (!is_tip && !points.is_on_lip(point, of.tear, Side::left) &&
-        !points.is_on_lip(point, of.tear, Side::right))
-      points.put_on_lip(point, of.tear, of.side);
+    if (is_tip || points.is_on_lip(point, of.tear, Side::left) ||
+        points.is_on_lip(point, of.tear, Side::right))
+      continue;
+    points.put_on_lip(point, of.tear, of.side);
+    is_put = true;
   }
+  return is_put;
 }
 
 /// Points that a tear creates on the lips of older tears are on those too.
@@ -56,12 +61,16 @@ void put_new_points_on_older_lips(StructureEdit& edit) {
   PointTable& points = edit.structure().points;
   const LipBorder& border = edit.border();
   OlderLips older(edit);
-  for (int pass = 0; pass < 2; ++pass)  // neighbours may both be new
+  bool is_put = true;
+  for (int pass = 0; pass < 2 && is_put; ++pass) {  // neighbours may both be new
+    is_put = false;
     for (Index point = edit.first_new_point(); point < points.count(); ++point) {
       const Index before = border.previous(point),
                   after = before == kNone ? kNone : border.next(point);
-      if (after != kNone) put_on_older_lips(points, point, older.find(point, before, after));
+      if (after != kNone)
+        is_put |= put_on_older_lips(points, point, older.find(point, before, after));
     }
+  }
 }
 
 }  // namespace
