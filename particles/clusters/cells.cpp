@@ -13,7 +13,10 @@ double coupling_of(const Structure& structure, Index particle, const ParticleNei
   const double around = norm(Vec3d(middle - here)) + norm(Vec3d(there - middle));
   const double squared = squared_norm(between);
   if (!(around > 0)) return 0;
-  if (around * around > kBentPath * kBentPath * squared) return norm(neighbour.across) / around;
+  if (around * around > kBentPath * kBentPath * squared) {
+    const double coupling = norm(neighbour.across) / around;
+    return coupling > kMostBentCoupling ? kTwoTipsCoupling : coupling;
+  }
   return std::max(0.0, dot(neighbour.across, between) / squared);
 }
 

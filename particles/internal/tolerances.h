@@ -45,6 +45,11 @@ static_assert(kLipRangeSpacings > kRowDistanceSpacings,
 /// both sides of a slit. On an unbroken surface it is below 2 / kSeedSpacingReach.
 inline constexpr double kBentPath = 2.5;
 static_assert(kBentPath > 2 / kSeedSpacingReach);
+/// The greatest coupling of such seeds next to one tip. Around a short slit their border has two
+/// parts, at both tips, whose middle is in the slit, so the path by it is much too short; then
+/// their coupling is the second value.
+inline constexpr double kMostBentCoupling = 3, kTwoTipsCoupling = 1;
+static_assert(kTwoTipsCoupling < kMostBentCoupling);
 /// A face whose doubled area is below this fraction of its longest squared edge has no reliable
 /// angles.
 inline constexpr double kNeedleFraction = 1e-6;

@@ -289,6 +289,28 @@ TEST(Gap, opens_across_the_lines_of_tension_and_not_along_them) {
   }
 }
 
+TEST(Gap, of_two_edges_opens_too) {
+  // Torn along a line of the mesh: the seeds of its two lips coincide, and their cells meet around
+  // both tips.
+  SoftScene scene(make_sheet(40), tissue(0, 50), kRange);
+  const auto lips = tear_down(scene, 0.521, 0.479, 0.6);
+  ASSERT_TRUE(scene.body->set_tension({1.0, {}}));
+  scene.run(5);
+  const std::vector<Vec3d> wanted =
+      test::solve_membrane(*scene.model, scene.set->positions(), scene.body->materials()[0],
+                           test::lip_forces(*scene.set, 1.0));
+  double gap = 0, widest = 0;
+  for (const LipPair& pair : lips) {
+    gap = std::max(gap, (scene.body->point_displacement(pair.left) -
+                         scene.body->point_displacement(pair.right))
+                            .norm());
+    widest = std::max(widest, (wanted[pair.left] - wanted[pair.right]).norm());
+  }
+  EXPECT_GT(widest, 1e-3);
+  EXPECT_GT(gap, 0.4 * widest);
+  EXPECT_LT(gap, 1.6 * widest);
+}
+
 TEST(Lips, move_apart_from_each_other_once_torn) {
   SoftScene scene(make_sheet(60), tissue(0, 50), 0.05);
   const auto point_near = [&](const Vec3d& at) {
