@@ -99,4 +99,9 @@ struct BodyState {
   [[nodiscard]] bool has_stretch_limit() const;
 };
 
+/// Gives functions of the module the data behind a body.
+struct BodyStateOf {
+  [[nodiscard]] static const BodyState& in(const SoftBody& body) { return *body.state_; }
+};
+
 }  // namespace sunder::particles

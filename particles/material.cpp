@@ -56,6 +56,7 @@ Status validate_material(const SoftMaterial& material) {
       Field{"strength", material.strength == 0 ? 2.0 : material.strength, std::nextafter(1.0, 2.0),
             1e6},
       Field{"toughness", material.toughness, 0.0, 1e12},
+      Field{"flaw_length", material.flaw_length, 1e-9, 1e12},
   };
   for (const Field& field : fields) {
     if (!std::isfinite(field.value))

@@ -19,9 +19,9 @@ Status out_of_memory() {
 }
 
 void describe(Tape& tape, SoftMaterial& of) {
-  for (double* value :
-       {&of.return_frequency, &of.damping_ratio, &of.membrane_stiffness, &of.membrane_damping,
-        &of.areal_density, &of.range, &of.stretch_limit, &of.strength, &of.toughness})
+  for (double* value : {&of.return_frequency, &of.damping_ratio, &of.membrane_stiffness,
+                        &of.membrane_damping, &of.areal_density, &of.range, &of.stretch_limit,
+                        &of.strength, &of.toughness, &of.flaw_length})
     tape(*value);
   if (!tape.is_reading()) return;
   if (const Status status = validate_material(of); !status)

@@ -112,20 +112,15 @@ static_assert(kStretchExcess < kStretchWakesExcess);
 
 // ---- Tearing by force.
 
-/// Particles at a tear may nearly coincide at rest. Their distance then counts as that of
-/// neighbouring seeds.
-inline constexpr double kLeastApartRanges = 0.8;
-/// Minimum ParticleNeighbour::coupling of particles that count as connected. Cells that touch at
-/// little more than a point would otherwise be torn without effect at the same place again and
-/// again.
-inline constexpr double kLeastCoupling = 0.02;
 /// A tear continues if the cosine of the angle between its last edge and its direction is at least
 /// this.
 inline constexpr double kLeastForwardCosine = 0.2;
-/// Factor by which the energy that a tip releases exceeds that of the mean gap next to it, because
-/// the gap is blended from few particles there. Fitted to energies of finite elements, which ask
-/// for 1.27 to 1.63 for slits from half a range to six ranges long.
-inline constexpr double kReleaseOfMean = 1.39;
+/// Radius of the disc around a tip in which its load is measured, in spacings of the small
+/// particles, and the part of it next to the tip whose displacements do not count. In a smaller
+/// disc the blending of the particles shows; a larger one costs more and hardly gains.
+inline constexpr double kTipDiscSpacings = 6, kTipCorePart = 0.25;
+/// Where the surface around a tip has a smaller angle, radians, a gap ends bluntly.
+inline constexpr double kSharpTipAngle = 5;
 /// Neighbours are in a row if the determinant of their moments is below this fraction of the
 /// squared trace.
 inline constexpr double kRowDeterminantFraction = 1e-4;

@@ -28,6 +28,12 @@ Vec3d with_added(const Vec3d& pull, const Mat3d& added, const LipEdge& lip) {
 
 }  // namespace
 
+Vec3d pull_at(const LipEdge& lip, std::span<const Vec3f> positions, const Tension& tension,
+              std::span<const Mat3d> added, Index owner) {
+  const Vec3d pull = pull_of(lip, positions, tension);
+  return added.empty() ? pull : with_added(pull, added[owner], lip);
+}
+
 void add_lip_forces(std::span<const LipEdge> lips, std::span<const Vec3f> positions,
                     std::span<const Index> owners, const Tension& tension,
                     std::span<const Mat3d> added, std::span<Vec3d> forces) {

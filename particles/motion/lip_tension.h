@@ -6,6 +6,12 @@
 
 namespace sunder::particles {
 
+/// The tension's pull at a lip edge: times its length if LipEdge::inward is so long; in the
+/// decomposition's pose.
+/// @param added  as in add_lip_forces(). @param owner  the particle in whose cell it pulls.
+[[nodiscard]] Vec3d pull_at(const LipEdge& lip, std::span<const Vec3f> positions,
+                            const Tension& tension, std::span<const Mat3d> added, Index owner);
+
 /// Adds the force of the tension at lips, where the tissue across the edge no longer balances it:
 /// half of an edge's force on the cell of each of its ends.
 /// @param positions, owners  per point.

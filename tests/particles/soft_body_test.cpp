@@ -624,6 +624,7 @@ TEST(material, is_checked_and_found) {
   EXPECT_EQ(fault([](SoftMaterial& m) { m.stretch_limit = 0.5; }).code(),
             StatusCode::invalid_argument);
   EXPECT_EQ(fault([](SoftMaterial& m) { m.strength = 1; }).code(), StatusCode::invalid_argument);
+  EXPECT_EQ(fault([](SoftMaterial& m) { m.flaw_length = 0; }).code(), StatusCode::invalid_argument);
   EXPECT_EQ(fault([](SoftMaterial& m) { m.membrane_stiffness = -1; }).code(),
             StatusCode::invalid_argument);
 }

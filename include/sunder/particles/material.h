@@ -30,13 +30,16 @@ struct SoftMaterial {
   double range = 0.1;
   /// Limit for the distance of two neighbours, relative to rest; >= 1, or 0: none.
   double stretch_limit = 0.0;
-  /// Stretch at which the tissue tears; > 1, or 0: it never does. Nor does it where stretch_limit
-  /// is less.
+  /// Stretch of the surface by its displacement at which the tissue begins to tear; > 1, or 0: it
+  /// never does. Nor does it where stretch_limit is less.
   double strength = 0.0;
   /// Energy that a tear takes per metre of its length, J/m: joules per square metre times
-  /// thickness. A tip runs on where the tissue releases at least this. 0: it runs on by the
-  /// strength. [0, 1e12].
+  /// thickness. A tip runs on where the tissue releases at least this. 0: see flaw_length.
+  /// [0, 1e12].
   double toughness = 0.0;
+  /// For tissue with a strength and without a toughness: a slit of this length runs on at the
+  /// strength, which takes pi S (strength - 1)^2 flaw_length / 4 per metre. Metres. [1e-9, 1e12].
+  double flaw_length = 0.02;
 
   bool operator==(const SoftMaterial&) const = default;
 };

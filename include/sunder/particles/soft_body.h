@@ -15,7 +15,8 @@ namespace sunder {
 
 namespace particles {
 struct BodyState;
-}
+struct BodyStateOf;
+}  // namespace particles
 
 /// The frame in which the displacement of a particle is constant while bones move.
 enum class Follow : std::uint8_t {
@@ -216,6 +217,7 @@ class SUNDER_API SoftBody {
   Status restore(const StateArrays& state);
 
  private:
+  friend struct particles::BodyStateOf;
   explicit SoftBody(std::unique_ptr<particles::BodyState> state);
   std::unique_ptr<particles::BodyState> state_;
 };
