@@ -58,7 +58,7 @@ void collect_triangles(const Joined& joined, WeldedSurface& surface) {
     for (const Triangle& triangle : joined.model.meshes[m].triangles) {
       Triangle points;
       for (std::size_t k = 0; k < 3; ++k) points[k] = surface.point_of_vertex[m][triangle[k]];
-      std::ranges::rotate(points, std::ranges::min_element(points));
+      std::rotate(points.begin(), std::ranges::min_element(points), points.end());
       if (points[0] != points[1] && points[1] != points[2] && points[2] != points[0])
         surface.triangles.push_back(points);
     }

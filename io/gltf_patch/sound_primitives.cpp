@@ -68,8 +68,8 @@ bool are_shares(const std::vector<float>& values) {
 
 }  // namespace
 
-SoundPrimitives::SoundPrimitives(Json& json, SoundAccessors& accessors)
-    : json_(json), accessors_(accessors) {
+SoundPrimitives::SoundPrimitives(const Json& json, SoundAccessors& accessors)
+    : accessors_(accessors) {
   if (const auto used = json.find("extensionsUsed"); used != json.end())
     is_quantized_ = std::find(used->begin(), used->end(), "KHR_mesh_quantization") != used->end();
 }

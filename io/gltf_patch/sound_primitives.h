@@ -13,7 +13,7 @@ namespace sunder::gltf {
 class SoundPrimitives {
  public:
   /// @param json  of the document of `accessors`.
-  SoundPrimitives(Json& json, SoundAccessors& accessors);
+  SoundPrimitives(const Json& json, SoundAccessors& accessors);
 
   /// Also corrects the bounds of its accessors.
   /// @param joint_count  of the smallest skin with which it is used; kNone if there is none.
@@ -31,7 +31,6 @@ class SoundPrimitives {
   [[nodiscard]] bool is_format_allowed(const std::string& semantic, const Accessor& accessor) const;
   [[nodiscard]] bool is_delta_allowed(const std::string& semantic, const Accessor& accessor) const;
 
-  Json& json_;
   SoundAccessors& accessors_;
   std::map<std::vector<std::uint32_t>, bool> influences_;  ///< By the accessors of all sets.
   bool is_quantized_ = false;

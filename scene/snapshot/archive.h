@@ -87,7 +87,7 @@ class SnapshotWriter {
   template <class... Kinds>
   void write(std::variant<Kinds...>& value) {
     write(static_cast<std::uint8_t>(value.index()));
-    std::visit([this](auto& of) { write(of); }, value);
+    std::visit([this](auto& of) { this->write(of); }, value);
   }
   template <class T>
   requires Listed<SnapshotWriter, T>

@@ -142,13 +142,14 @@ std::vector<Crack> find_unequal_copies(const Skinned& skin) {
   const auto& meshes = skin.character.meshes;
   for (Index v = 0; v < skin.surface.vertex_count(); ++v) {
     if (skin.surface.triangle_of_vertex[v] == kNone) continue;
-    const auto [mesh, own] = in_mesh(skin.surface, v);
+    const std::pair<Index, Index> here = in_mesh(skin.surface, v);
     bool is_known = false;
     table.find(skin.surface.positions[v], [&](Index other) {
-      const auto [other_mesh, other_own] = in_mesh(skin.surface, other);
-      if (meshes[other_mesh].skin != meshes[mesh].skin) return false;
+      const std::pair<Index, Index> there = in_mesh(skin.surface, other);
+      if (meshes[there.first].skin != meshes[here.first].skin) return false;
       is_known = true;
-      if (!same_weights(skin.influences(mesh, own), skin.influences(other_mesh, other_own)))
+      if (!same_weights(skin.influences(here.first, here.second),
+                        skin.influences(there.first, there.second)))
         cracks.push_back({v, {other, other}, 0.0});
       return true;
     });
@@ -277,11 +278,10 @@ Places find_welded_lips(const Skinned& reference, const Skinned& target) {
   std::ranges::sort(places, [](const FindingPlace& a, const FindingPlace& b) {
     return std::tie(a.mesh, a.vertex) < std::tie(b.mesh, b.vertex);
   });
-  const auto repeated =
-      std::ranges::unique(places, [](const FindingPlace& a, const FindingPlace& b) {
-        return a.mesh == b.mesh && a.vertex == b.vertex;
-      });
-  places.erase(repeated.begin(), repeated.end());
+  const auto are_same = [](const FindingPlace& a, const FindingPlace& b) {
+    return a.mesh == b.mesh && a.vertex == b.vertex;
+  };
+  places.erase(std::unique(places.begin(), places.end(), are_same), places.end());
   return places;
 }
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdio>
 #include <limits>
+#include <span>
 
 #include "core/internal/or_throw.h"
 #include "core/internal/ordered.h"
@@ -97,8 +98,10 @@ class SurfaceBefore {
     });
     if (least) return least;
     const Index triangle = model_.birth(mesh_, vertex).triangle;
-    auto faces = std::ranges::equal_range(faces_, triangle, {}, &Face::source_triangle);
-    if (faces.empty()) faces = std::ranges::subrange(faces_.begin(), faces_.end());
+    std::span<const Face> faces(
+        std::ranges::lower_bound(faces_, triangle, {}, &Face::source_triangle),
+        std::ranges::upper_bound(faces_, triangle, {}, &Face::source_triangle));
+    if (faces.empty()) faces = faces_;
     const Face* nearest = nullptr;
     PlaceOnTriangle place;
     place.distance = std::numeric_limits<double>::infinity();
