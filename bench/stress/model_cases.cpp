@@ -100,9 +100,8 @@ void scaled_and_shifted(std::uint64_t seed, const Steps& steps, CaseReport& repo
       random.index(2) == 0 ? test::hard_character(random) : test::random_character(random);
   const double scale = test::any_scale(random, 1e-4, 1e4);
   // Beyond a few thousand units in the last place of a float the model itself falls apart.
-  const Vec3d offset = random.index(2) == 0
-                           ? Vec3d::Zero()
-                           : Vec3d(scale * test::any_scale(random, 1, 100) * random.direction());
+  const Vec3d offset =
+      random.index(2) == 0 ? Vec3d::Zero() : Vec3d(scale * test::any_vector(random, 1, 100));
   move(character, scale, offset);
   TornSubject subject(std::move(character), report);
   run_steps(subject, seed, steps, 5, [](TornSubject& of, Random& numbers, std::uint32_t) {

@@ -26,8 +26,10 @@ Character plane_subject(Random& random) {
   switch (random.index(4)) {
     case 0: return test::make_sheet(2 + random.index(10));
     case 1: return test::make_bumpy_ball(60 + random.index(400));
-    default: return test::make_tube(4 + random.index(8), 5 + random.index(8), 3);
+    default: break;
   }
+  const std::uint32_t sides = 5 + random.index(8), rings = 4 + random.index(8);
+  return test::make_tube(rings, sides, 3);
 }
 
 /// Nothing, or a distance of 1e-4 to 1e-16 sizes.

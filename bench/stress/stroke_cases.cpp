@@ -28,8 +28,9 @@ Vec2d round_about(const Vec2d& center, double radius, double angle) {
 
 std::vector<Vec2d> hairpin(Random& random) {
   const double gap = test::any_scale(random, 1e-9, 0.1);
-  const Vec2d a(random.uniform(0.2, 0.4), random.uniform(0.3, 0.7)),
-      b(random.uniform(0.6, 0.8), random.uniform(0.3, 0.7));
+  const double ay = random.uniform(0.3, 0.7), ax = random.uniform(0.2, 0.4),
+               by = random.uniform(0.3, 0.7), bx = random.uniform(0.6, 0.8);
+  const Vec2d a(ax, ay), b(bx, by);
   return {a, b, b + Vec2d(0, gap), a + Vec2d(0, gap)};
 }
 
@@ -176,8 +177,9 @@ void tiny_strokes(std::uint64_t seed, const Steps& steps, CaseReport& report) {
     }
     TearOperation tear;
     tear.pose = pose;
-    tear.stroke = test::random_stroke(of.model().source(), pose, numbers,
-                                      test::any_scale(numbers, 1e-9, 1e-2), 1 + numbers.index(3));
+    const std::uint32_t segments = 1 + numbers.index(3);
+    const double length = test::any_scale(numbers, 1e-9, 1e-2);
+    tear.stroke = test::random_stroke(of.model().source(), pose, numbers, length, segments);
     if (numbers.index(2) == 0) tear.options.width = test::any_scale(numbers, 1e-9, 1e-2);
     of.operate(tear);
   });

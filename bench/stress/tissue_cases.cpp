@@ -72,8 +72,7 @@ class Tissue {
       expect(body_->set_tension({test::any_scale(random, 1e-3, 1e6), {}, random.index(2) == 0}),
              "set_tension");
     if (random.index(2) == 0)
-      expect(body_->set_gravity(test::any_scale(random, 1e-2, 1e4) * random.direction()),
-             "set_gravity");
+      expect(body_->set_gravity(test::any_vector(random, 1e-2, 1e4)), "set_gravity");
     return true;
   }
 
@@ -81,16 +80,17 @@ class Tissue {
     switch (random.index(6)) {
       case 0: operate(random); break;
       case 1: pose_ = test::random_pose(model_->source(), random, 2); break;
-      case 2:
+      case 2: {
+        const Vec3d impulse = test::any_vector(random, 1e-9, 1e6);
         // A point that lost its faces is refused.
-        (void)body_->add_point_impulse(random.index(set_->point_count()),
-                                       test::any_scale(random, 1e-9, 1e6) * random.direction());
+        (void)body_->add_point_impulse(random.index(set_->point_count()), impulse);
         break;
-      case 3:
-        expect(body_->set_force(random.index(body_->particle_count()),
-                                test::any_scale(random, 1e-9, 1e9) * random.direction()),
-               "set_force");
+      }
+      case 3: {
+        const Vec3d force = test::any_vector(random, 1e-9, 1e9);
+        expect(body_->set_force(random.index(body_->particle_count()), force), "set_force");
         break;
+      }
       default: break;
     }
     const double seconds = test::any_scale(random, 1e-6, 10);

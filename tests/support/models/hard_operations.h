@@ -42,5 +42,10 @@ Bore hard_bore(const Target& target, Random& random);
 inline double any_scale(Random& random, double low, double high) {
   return std::exp(random.uniform(std::log(low), std::log(high)));
 }
+/// A vector of such a length in any direction.
+inline Vec3d any_vector(Random& random, double low, double high) {
+  const Vec3d direction = random.direction();
+  return any_scale(random, low, high) * direction;
+}
 
 }  // namespace sunder::test

@@ -220,8 +220,10 @@ Character make_bumpy_ball(std::uint32_t points) {
             const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
               mesh.triangles.push_back(is_mirrored ? Triangle{a, c, b} : Triangle{a, b, c});
             };
-            add(at(0, 0), at(1, 0), at(0, 1));
-            if (i + j + 1 < n) add(at(1, 0), at(1, 1), at(0, 1));
+            // One after another: arguments of a call are evaluated in any order.
+            const std::uint32_t c = at(0, 1), b = at(1, 0), a = at(0, 0);
+            add(a, b, c);
+            if (i + j + 1 < n) add(b, at(1, 1), c);
           }
   mesh.triangle_submesh.assign(mesh.triangles.size(), 0);
   character.meshes.push_back(std::move(mesh));
