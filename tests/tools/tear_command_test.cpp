@@ -5,6 +5,7 @@
 
 #include "support/machine/gltf_validator.h"
 #include "tools/command_fixture.h"
+#include "tools/picture_pixels.h"
 
 namespace sunder::command_test {
 namespace {
@@ -238,6 +239,27 @@ TEST_F(TearCommand, tear_draws_a_picture_of_the_result) {
     EXPECT_GT(std::filesystem::file_size(path("drawn.png")), 10'000u);
     std::filesystem::remove(path("drawn.png"));
   }
+}
+
+TEST_F(TearCommand, normals_against_the_winding_do_not_darken_the_picture) {
+  Character turned = tools::make_cactus();
+  for (Mesh& mesh : turned.meshes)
+    for (Vec3f& normal : mesh.normals) normal = -normal;
+  ASSERT_TRUE(save_glb(path("turned.glb"), turned));
+  const auto drawn = [&](const std::string& of, const std::string& picture) {
+    const CommandResult result =
+        run_sunder({"tear", of, "--ops", write("turned.json", kOneTear), "-o",
+                    path("turned_torn.glb"), "--picture", path(picture), "-q"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return test::read_png(path(picture));
+  };
+  const auto wanted = drawn(model(), "right.png"), found = drawn(path("turned.glb"), "turned.png");
+  ASSERT_TRUE(wanted && found);
+  ASSERT_EQ(found->colors.size(), wanted->colors.size());
+  std::size_t other = 0;
+  for (std::size_t i = 0; i < wanted->colors.size(); ++i)
+    other += test::is_near(wanted->colors[i], found->colors[i], 40) ? 0u : 1u;
+  EXPECT_LT(other, wanted->colors.size() / 200);
 }
 
 TEST_F(TearCommand, a_picture_that_cannot_be_drawn_is_a_finding) {

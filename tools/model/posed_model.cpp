@@ -68,11 +68,14 @@ Result<std::vector<DeformedMesh>> pose_positions(const Character& character,
 
 Result<std::vector<DeformedMesh>> pose_model(const Character& character, const ModelPose& pose) {
   Result<std::vector<DeformedMesh>> posed = deform_model(character, pose);
-  if (!posed) return posed;
-  for (std::size_t i = 0; i < posed->size(); ++i)
-    if ((*posed)[i].normals.empty() || has_wrong_normals(character.meshes[i], (*posed)[i]))
-      make_normals(character.meshes[i], (*posed)[i]);
+  if (posed) mend_normals(character, *posed);
   return posed;
+}
+
+void mend_normals(const Character& character, std::vector<DeformedMesh>& posed) {
+  for (std::size_t i = 0; i < posed.size(); ++i)
+    if (posed[i].normals.empty() || has_wrong_normals(character.meshes[i], posed[i]))
+      make_normals(character.meshes[i], posed[i]);
 }
 
 Bounds bounds_of(const Character& character, const std::vector<DeformedMesh>& posed) {

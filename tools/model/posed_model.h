@@ -17,10 +17,12 @@ namespace sunder::tools {
 [[nodiscard]] Result<std::vector<DeformedMesh>> pose_positions(const Character& character,
                                                                const ModelPose& pose);
 
-/// As deform_model(), for drawing: a mesh without normals, or with many that contradict its
-/// winding, gets smooth ones.
+/// As deform_model(), for drawing: with mend_normals().
 [[nodiscard]] Result<std::vector<DeformedMesh>> pose_model(const Character& character,
                                                            const ModelPose& pose);
+
+/// Gives meshes without normals, or with many that contradict their winding, smooth ones.
+void mend_normals(const Character& character, std::vector<DeformedMesh>& posed);
 
 struct Bounds {
   Vec3d least = Vec3d::Constant(1e300);

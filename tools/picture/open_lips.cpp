@@ -297,6 +297,7 @@ void displace(CharacterInstance& instance, std::vector<DeformedMesh>& posed) {
     posed[m].positions.assign(mesh.positions.begin(), mesh.positions.end());
     if (!mesh.normals.empty()) posed[m].normals.assign(mesh.normals.begin(), mesh.normals.end());
   }
+  mend_normals(instance.character(), posed);
 }
 
 }  // namespace sunder::tools

@@ -48,7 +48,7 @@ struct GapingModel {
 /// The vertices of the last draw(), in model space.
 [[nodiscard]] std::vector<DeformedMesh> drawn(CharacterInstance& instance);
 
-/// Moves posed vertices by the displacements of the last draw().
+/// Moves posed vertices by the displacements of the last draw(), with mend_normals().
 void displace(CharacterInstance& instance, std::vector<DeformedMesh>& posed);
 
 /// Narrows wounds towards their ends like ellipses, where particles leave them blunt: moves points
