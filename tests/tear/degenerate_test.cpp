@@ -70,12 +70,9 @@ std::string describe(const Bore& bore) {
   return text.str();
 }
 
-/// Limit for the processor time of an operation on models of some hundred faces.
-#if defined(__SANITIZE_ADDRESS__)
+/// An operation on models of some hundred faces that takes more processor time than this hangs;
+/// also under sanitizers and where lines are counted.
 constexpr double kSeconds = 20;
-#else
-constexpr double kSeconds = 1;
-#endif
 
 class Subject {
  public:
