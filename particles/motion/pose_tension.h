@@ -7,8 +7,8 @@
 
 namespace sunder::particles {
 
-/// What a pose adds to the tension of the tissue at lips, because it stretches or compresses the
-/// tissue relative to the decomposition's pose.
+/// The tension that a pose adds to the tissue at lips: a pose stretches or compresses the tissue
+/// relative to the decomposition's pose.
 class PoseTension {
  public:
   /// Makes room for the particles of a set. @throws std::bad_alloc

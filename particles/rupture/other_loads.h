@@ -6,9 +6,9 @@
 
 namespace sunder::particles {
 
-/// What pulls at particles in addition to the membrane, its foundation and the tension at lips:
-/// holds, colliders, gravity, wind, forces, inertia, damping. It is what the springs of a particle
-/// do not balance. Summed over a region of the surface that is given in small parts.
+/// The loads on particles other than the membrane, its foundation and the tension at lips: holds,
+/// colliders, gravity, wind, forces, inertia, damping. The springs of a particle do not balance
+/// them. They are summed over a region of the surface that is given in small parts.
 class OtherLoads {
  public:
   explicit OtherLoads(const Tissue& tissue) : tissue_(tissue) {}

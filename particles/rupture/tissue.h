@@ -8,7 +8,7 @@
 
 namespace sunder::particles {
 
-/// What decides where a body tears: its surface, its materials, and how it moved in the last step.
+/// A body as tearing by force sees it: its surface, its materials, and its motion in the last step.
 struct Tissue {
   const ParticleSet& set;
   const TornModel& model;
