@@ -76,10 +76,7 @@ fuzz:
 	scripts/setup fuzz
 	cmake --preset fuzz
 	cmake --build --preset fuzz --target $(addsuffix _fuzzer,$(fuzzers))
-	mkdir -p build/fuzz/found
-	set -e; for name in $(fuzzers); do mkdir -p build/fuzz/corpus/$$name; \
-	  build/fuzz/tests/fuzz/$${name}_fuzzer -max_total_time=$(fuzz_seconds) -timeout=5 -rss_limit_mb=2048 \
-	    -artifact_prefix=build/fuzz/found/$${name}_ build/fuzz/corpus/$$name tests/fuzz/corpus/$$name; done
+	scripts/fuzz $(fuzz_seconds) $(fuzzers)
 
 format:
 	scripts/setup format
