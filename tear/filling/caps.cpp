@@ -12,6 +12,7 @@
 #include "tear/filling/rim_values.h"
 #include "tear/geometry/tolerances.h"
 #include "tear/internal/surface.h"
+#include "tear/section/exact_predicates.h"
 #include "tear/section/flat_section.h"
 #include "tear/surface/append_filling.h"
 #include "tear/surface/rim.h"
@@ -35,13 +36,13 @@ struct SectionFrame {
 /// The side of a cut whose caps are made, by the direction in which they face.
 enum class Facing : std::uint8_t { along_normal, against_normal };
 
-double doubled_area(const FlatLoop& loop) {
-  double area = 0;
-  for (std::size_t i = 0; i < loop.size(); ++i) {
-    const Vec2d a = loop[i] - loop[0], b = loop[(i + 1) % loop.size()] - loop[0];
-    area += a.x() * b.y() - a.y() * b.x();
-  }
-  return area;
+/// Decided exactly: triangulate() takes loops of any size, down to one unit in the last place.
+bool is_clockwise(const FlatLoop& loop, ScratchMemory& scratch) {
+  const ScratchMemory::Frame frame(scratch);
+  ScratchVector<Vec2d> points(&scratch);
+  points.reserve(loop.size());
+  for (const Vec2d& point : loop) points.push_back(exact_range(point).value_or(Vec2d::Zero()));
+  return area_sign(points) < 0;
 }
 
 /// The caps of one side.
@@ -161,7 +162,7 @@ class Caps {
       vertices.push_back(filling_.add_rim_vertex(mesh, Surface::next(h)));
     }
     // A body whose faces point inwards has reversed rims.
-    const bool is_inside_out = doubled_area(loops[region.outline]) < 0;
+    const bool is_inside_out = is_clockwise(loops[region.outline], scratch());
     const bool is_copy = is_like_first(mesh, is_inside_out, of, vertices);
     if (is_copy)
       copy_inner_points(mesh, of, points, vertices);

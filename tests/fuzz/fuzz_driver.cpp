@@ -1,7 +1,9 @@
 // Runs a fuzz target without libFuzzer: over the files of its corpus, and over seeded mutations of
 // them. Usage: <program> <folder of the corpus> [mutations per file]
+// An input that makes the target abort is kept in the file failing_input.
 
 #include <algorithm>
+#include <csignal>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -10,6 +12,7 @@
 #include <fstream>
 #include <iterator>
 #include <random>
+#include <utility>
 #include <vector>
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
@@ -52,6 +55,21 @@ void mutate(Input& input, const Input& other, std::mt19937& random) {
   }
 }
 
+Input current_input;
+
+void try_input(Input input) {
+  current_input = std::move(input);
+  LLVMFuzzerTestOneInput(current_input.data(), current_input.size());
+}
+
+void keep_current_input(int) {
+  constexpr char kFile[] = "failing_input";
+  std::ofstream(kFile, std::ios::binary)
+      .write(reinterpret_cast<const char*>(current_input.data()),
+             static_cast<std::streamsize>(current_input.size()));
+  std::fprintf(stderr, "the input is in %s\n", kFile);
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
@@ -67,13 +85,14 @@ int main(int count, char** arguments) {
   const bool is_stress = std::getenv("SUNDER_STRESS") != nullptr;
   const long mutations = (count > 2 ? std::atol(arguments[2]) : 500) * (is_stress ? 100 : 1);
   std::mt19937 random(1);
-  LLVMFuzzerTestOneInput(nullptr, 0);
+  std::signal(SIGABRT, keep_current_input);
+  try_input({});
   for (const Input& seed : corpus) {
-    LLVMFuzzerTestOneInput(seed.data(), seed.size());
+    try_input(seed);
     for (long i = 0; i < mutations; ++i) {
       Input mutant = seed;
       mutate(mutant, corpus[random() % corpus.size()], random);
-      LLVMFuzzerTestOneInput(mutant.data(), mutant.size());
+      try_input(std::move(mutant));
     }
   }
   std::printf("%zu files, %ld mutations of each\n", corpus.size(), mutations);
