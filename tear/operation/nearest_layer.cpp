@@ -27,8 +27,14 @@ class NearestLayerSegment {
   void tear();
 
  private:
-  double tear_piece(Index start, const EditLog::Mark& before);
+  /// How far along the segment a piece reaches, in [0, 1].
+  struct Reached {
+    double progress;
+    bool has_edges;  ///< New lips, or a way along older ones.
+  };
+  Reached tear_piece(Index start, const EditLog::Mark& before);
   void make_openable(Path& path);
+  [[nodiscard]] bool opens_anything(const Path& path) const;
   void add_walls(Path& path);
   double take_back(const Path& path, Index start, bool continues, const EditLog::Mark& before);
   void open(const Path& path);
@@ -41,12 +47,13 @@ class NearestLayerSegment {
   /// Where a lip with a wall was crossed, if the last piece ended there. It may have snapped to a
   /// point beyond.
   std::optional<double> lip_progress_;
-  std::size_t torn_edges_ = 0;
+  bool has_torn_ = false;
 };
 
 /// Imprints and opens one piece of the path, from a point to where the blade, the surface or the
-/// faces end. Moves the tip. @return how far along the segment it reaches, in [0, 1].
-double NearestLayerSegment::tear_piece(Index start, const EditLog::Mark& before) {
+/// faces end. Moves the tip.
+NearestLayerSegment::Reached NearestLayerSegment::tear_piece(Index start,
+                                                             const EditLog::Mark& before) {
   Path path = imprint_path(plane_, start, work_.editor, work_.posed);
   const bool continues = start == tip_.point && tip_.ends_run;
   tip_.point = kNone;
@@ -55,19 +62,22 @@ double NearestLayerSegment::tear_piece(Index start, const EditLog::Mark& before)
   // Where the last piece of this segment snapped, something of the section may be left next to it:
   // not a piece of its own.
   const bool is_leftover = path.points.back() == last_end_;
-  if (path.points.size() < 2 || is_leftover) return take_back(path, start, continues, before);
+  if (path.points.size() < 2 || is_leftover)
+    return {take_back(path, start, continues, before), false};
+  if (path.end != PathEnd::blade && !opens_anything(path))
+    return {take_back(path, start, continues, before), true};
   last_end_ = path.points.back();
   if (!path.is_on_wall) add_walls(path);
   open(path);
   if (!continues) ++outcome_.report.runs;
   outcome_.report.faces_crossed += path.faces_crossed;
   outcome_.report.length_posed += path.length_posed;
-  if (path.end != PathEnd::blade) return path.progress;
+  if (path.end != PathEnd::blade) return {path.progress, true};
   // At a lip the next segment may begin on the other side, on a wall at a lip above.
-  if (path.is_on_wall || path.points.back() != last_end_) return 1.0;
+  if (path.is_on_wall || path.points.back() != last_end_) return {1.0, true};
   tip_.point = last_end_;
   tip_.ends_run = true;
-  return 1.0;
+  return {1.0, true};
 }
 
 /// A tear of one edge between two tips would be closed at both ends of its only edge: it gets a
@@ -84,6 +94,16 @@ void NearestLayerSegment::make_openable(Path& path) {
   else
     path.points.insert(path.points.begin() + 1, middle);
   path.half_edges.clear();
+}
+
+/// Whether an edge of a path has faces on both sides; a path along a lip has none.
+bool NearestLayerSegment::opens_anything(const Path& path) const {
+  const Surface& surface = work_.editor.surface();
+  for (std::size_t i = 0; i + 1 < path.points.size(); ++i) {
+    const Index edge = surface.find_half_edge(path.points[i], path.points[i + 1]);
+    if (edge != kNone && surface.twin[edge] != kNone) return true;
+  }
+  return false;
 }
 
 /// Extends a piece down the walls of the lips at which it begins or ends.
@@ -130,14 +150,15 @@ void NearestLayerSegment::open(const Path& path) {
   open_edges(edges, path.half_edges, {}, editor, lips);
   for (std::size_t i = first_lip; i < lips.size(); ++i)
     work_.posed.pin(lips[i].left, Vec3d(work_.posed.position(editor, lips[i].right)));
-  torn_edges_ += edges.size();
+  has_torn_ = true;
 }
 
 /// Where the surface ends, folds away or cannot be split, the sweep continues on the next surface
 /// that it meets. Every iteration passes at least one triangle.
 void NearestLayerSegment::tear() {
   double progress = 0;
-  if (tip_.point != kNone) progress = std::max(0.0, tear_piece(tip_.point, work_.editor.mark()));
+  if (tip_.point != kNone)
+    progress = std::max(0.0, tear_piece(tip_.point, work_.editor.mark()).progress);
   for (int futile = 0; progress < 1 && futile < kMostFutileTurns;) {
     auto contact = find_contact(plane_, progress, work_, tip_);
     if (!contact) break;
@@ -146,16 +167,15 @@ void NearestLayerSegment::tear() {
               contact_in(contact->triangle, plane_, *lip, work_.editor, work_.posed))
         contact = before;
     const EditLog::Mark before = work_.editor.mark();
-    const std::size_t edges = torn_edges_;
     const Index start = imprint_point(*contact, Snapping::by_shape, work_.editor, work_.posed);
-    const double reached = tear_piece(start, before);
-    const bool has_advanced = torn_edges_ > edges && reached > progress + kSamePlaceSweeps;
-    progress = std::max(progress, reached);
+    const Reached reached = tear_piece(start, before);
+    const bool has_advanced = reached.has_edges && reached.progress > progress + kSamePlaceSweeps;
+    progress = std::max(progress, reached.progress);
     if (has_advanced) continue;
     progress = std::max(progress, contact->progress_beyond);
     ++futile;
   }
-  if (torn_edges_ == 0 && tip_.point == kNone) ++outcome_.report.segments_missed;
+  if (!has_torn_ && tip_.point == kNone) ++outcome_.report.segments_missed;
 }
 
 }  // namespace

@@ -24,6 +24,17 @@ bool stops_short_of_border(const Step& step, const Reach& reach, const SurfaceEd
   return reach.fraction > 1 - snapped_part(edge, Snapping::by_shape, editor, posed);
 }
 
+/// Whether a point is the end of a tear: both lips begin there, and neither parts from the other.
+bool is_tip(Index point, const SurfaceEditor& editor, PosedPoints& posed) {
+  const Surface& surface = editor.surface();
+  const Index out = surface.first_of_fan(surface.point_corner[point]);
+  if (surface.twin[out] != kNone) return false;
+  Index last = out;
+  for (Index c = surface.rotate_ccw(out); c != kNone; c = surface.rotate_ccw(c)) last = c;
+  return posed.position(editor, surface.corner_point[Surface::next(out)]) ==
+         posed.position(editor, surface.corner_point[Surface::previous(last)]);
+}
+
 /// A path that grows.
 class GrowingPath {
  public:
@@ -97,7 +108,7 @@ class GrowingPath {
   }
 
   /// Moves by `fraction` of the way to the place of a step, within the face, unless that snaps to a
-  /// place behind.
+  /// place behind. It snaps to a lip nearby, but not back to the tip that it extends.
   void stop_within(const Step& step, double fraction) {
     SurfaceHit hit;
     hit.triangle = step.corner / 3;
@@ -106,7 +117,9 @@ class GrowingPath {
     hit.barycentric[Surface::previous(step.corner) % 3] = fraction * step.fraction;
     hit.position = here_ + fraction * (step.position - here_);
     const EditLog::Mark before = editor_.mark();
-    const Index stop = imprint_point(hit, Snapping::near, editor_, posed_);
+    const Snapping snapping =
+        is_tip(path.points.back(), editor_, posed_) ? Snapping::near : Snapping::near_or_lip;
+    const Index stop = imprint_point(hit, snapping, editor_, posed_);
     if (plane_.progress(posed_.position(editor_, stop)) > plane_.progress(here_)) {
       go_to(stop, kNone);
       return;

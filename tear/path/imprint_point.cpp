@@ -24,8 +24,7 @@ Index imprint_point(const SurfaceHit& hit, Snapping snapping, SurfaceEditor& edi
   std::array<double, 3> weight = hit.barycentric;
   double sum = 0;
   for (Index k = 0; k < 3; ++k) {
-    if (weight[k] < (snapping == Snapping::tight ? stored_height(first + k, editor) : kSnapEdges))
-      weight[k] = 0;
+    if (weight[k] < snapped_height(first + k, snapping, editor, posed)) weight[k] = 0;
     sum += weight[k];
   }
   for (double& w : weight) w /= sum;
@@ -33,7 +32,8 @@ Index imprint_point(const SurfaceHit& hit, Snapping snapping, SurfaceEditor& edi
       static_cast<Index>(std::max_element(weight.begin(), weight.end()) - weight.begin());
   const auto smallest =
       static_cast<Index>(std::min_element(weight.begin(), weight.end()) - weight.begin());
-  if (weight[largest] == 1) return editor.surface().corner_point[first + largest];
+  if (weight[largest] == 1 || is_at_lip_corner(hit, first + largest, snapping, editor, posed))
+    return editor.surface().corner_point[first + largest];
 
   if (weight[smallest] > 0) {
     const Index point = split_triangle(hit.triangle, weight, editor);

@@ -1,6 +1,7 @@
 #include "tear/path/snapping.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/internal/ordered.h"
@@ -18,6 +19,56 @@ double fraction_of(double length, double whole) {
 
 double largest_coordinate(const Vec3f& a, const Vec3f& b) {
   return static_cast<double>(std::max(a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff()));
+}
+
+/// Whether an edge is one of a border that tears made.
+bool is_lip(Index half_edge, const SurfaceEditor& editor) {
+  return editor.surface().twin[half_edge] == kNone &&
+         !(editor.is_source_vertex(half_edge) && editor.is_source_vertex(Surface::next(half_edge)));
+}
+
+/// Whether a lip leaves the point of a corner.
+bool is_on_lip(Index corner, const SurfaceEditor& editor) {
+  return is_lip(editor.surface().first_of_fan(corner), editor);
+}
+
+/// The corners of a face, in any space.
+struct Corners {
+  std::array<Vec3d, 3> at;
+
+  [[nodiscard]] double longest_side() const {
+    return std::max(
+        {norm(Vec3d(at[1] - at[0])), norm(Vec3d(at[2] - at[1])), norm(Vec3d(at[0] - at[2]))});
+  }
+  /// Over the side from corner `k` to the next one.
+  [[nodiscard]] double height_over(std::size_t k) const {
+    const Vec3d side = at[(k + 1) % 3] - at[k];
+    const double length = norm(side);
+    return length > 0 ? norm(Vec3d(side.cross(at[(k + 2) % 3] - at[k]))) / length : 0;
+  }
+};
+
+Corners posed_corners(Index face, const SurfaceEditor& editor, PosedPoints& posed) {
+  Corners corners;
+  for (Index k = 0; k < 3; ++k)
+    corners.at[k] = posed.position(editor, editor.surface().corner_point[3 * face + k]);
+  return corners;
+}
+
+/// As barycentric coordinates in the triangle that the face is a part of.
+Vec3d place_in_origin(Index corner, const SurfaceEditor& editor) {
+  const auto [a, b, c] = editor.source_barycentric(corner);
+  return {a, b, c};
+}
+Corners corners_in_origin(Index face, const SurfaceEditor& editor) {
+  return {{place_in_origin(3 * face, editor), place_in_origin(3 * face + 1, editor),
+           place_in_origin(3 * face + 2, editor)}};
+}
+
+/// How near is near, as a part of a length in the pose that is `in_origin` long in barycentric
+/// coordinates: in every source triangle the same share of its size.
+double same_place(double in_origin, double most) {
+  return in_origin > 0 ? std::min(most, kSnapEdges / in_origin) : most;
 }
 
 }  // namespace
@@ -45,10 +96,37 @@ double stored_part(Index half_edge, const SurfaceEditor& editor) {
                      norm(to.cast<double>() - from.cast<double>()));
 }
 
+double snapped_height(Index corner, Snapping snapping, const SurfaceEditor& editor,
+                      PosedPoints& posed) {
+  if (snapping == Snapping::tight) return stored_height(corner, editor);
+  const Index base = Surface::next(corner);
+  if (snapping == Snapping::near || !is_lip(base, editor)) return kSnapEdges;
+  const double same =
+      same_place(corners_in_origin(corner / 3, editor).height_over(base % 3), kFarthestSnapEdges);
+  const Corners face = posed_corners(corner / 3, editor, posed);
+  const double height = face.height_over(base % 3), sliver = kSliverSizes * face.longest_side();
+  return height > 0 ? std::max(same, std::min(kFarthestSnapEdges, sliver / height))
+                    : kFarthestSnapEdges;
+}
+
+bool is_at_lip_corner(const SurfaceHit& hit, Index corner, Snapping snapping,
+                      const SurfaceEditor& editor, PosedPoints& posed) {
+  if (snapping == Snapping::tight || snapping == Snapping::near || !is_on_lip(corner, editor))
+    return false;
+  const Corners in_origin = corners_in_origin(hit.triangle, editor);
+  Vec3d place = Vec3d::Zero();
+  for (std::size_t k = 0; k < 3; ++k) place += hit.barycentric[k] * in_origin.at[k];
+  if (norm(Vec3d(place - in_origin.at[corner % 3])) < kSnapEdges) return true;
+  const Corners face = posed_corners(hit.triangle, editor, posed);
+  return norm(Vec3d(hit.position - face.at[corner % 3])) < kSliverSizes * face.longest_side();
+}
+
 double snapped_part(Index half_edge, Snapping snapping, const SurfaceEditor& editor,
                     PosedPoints& posed) {
   if (snapping == Snapping::tight) return stored_part(half_edge, editor);
-  if (snapping == Snapping::near) return kSnapEdges;
+  if (snapping == Snapping::near ||
+      (snapping == Snapping::near_or_lip && !is_lip(half_edge, editor)))
+    return kSnapEdges;
   if (editor.is_source_vertex(half_edge) && editor.is_source_vertex(Surface::next(half_edge)))
     return kSnapEdges;
   const Surface& surface = editor.surface();
