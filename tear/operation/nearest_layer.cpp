@@ -34,7 +34,6 @@ class NearestLayerSegment {
   };
   Reached tear_piece(Index start, const EditLog::Mark& before);
   void make_openable(Path& path);
-  [[nodiscard]] bool opens_anything(const Path& path) const;
   void add_walls(Path& path);
   double take_back(const Path& path, Index start, bool continues, const EditLog::Mark& before);
   void open(const Path& path);
@@ -64,11 +63,11 @@ NearestLayerSegment::Reached NearestLayerSegment::tear_piece(Index start,
   const bool is_leftover = path.points.back() == last_end_;
   if (path.points.size() < 2 || is_leftover)
     return {take_back(path, start, continues, before), false};
-  if (path.end != PathEnd::blade && !opens_anything(path))
+  if (path.is_along_lip && path.end != PathEnd::blade)
     return {take_back(path, start, continues, before), true};
   last_end_ = path.points.back();
-  if (!path.is_on_wall) add_walls(path);
-  open(path);
+  if (!path.is_on_wall && !path.is_along_lip) add_walls(path);
+  if (!path.is_along_lip) open(path);
   if (!continues) ++outcome_.report.runs;
   outcome_.report.faces_crossed += path.faces_crossed;
   outcome_.report.length_posed += path.length_posed;
@@ -84,7 +83,7 @@ NearestLayerSegment::Reached NearestLayerSegment::tear_piece(Index start,
 /// point in the middle, which can open.
 void NearestLayerSegment::make_openable(Path& path) {
   const Surface& surface = work_.editor.surface();
-  if (path.points.size() != 2 || surface.is_on_border(path.points[0]) ||
+  if (path.points.size() != 2 || path.is_along_lip || surface.is_on_border(path.points[0]) ||
       surface.is_on_border(path.points[1]))
     return;
   const Index edge = surface.find_half_edge(path.points[0], path.points[1]);
@@ -94,16 +93,6 @@ void NearestLayerSegment::make_openable(Path& path) {
   else
     path.points.insert(path.points.begin() + 1, middle);
   path.half_edges.clear();
-}
-
-/// Whether an edge of a path has faces on both sides; a path along a lip has none.
-bool NearestLayerSegment::opens_anything(const Path& path) const {
-  const Surface& surface = work_.editor.surface();
-  for (std::size_t i = 0; i + 1 < path.points.size(); ++i) {
-    const Index edge = surface.find_half_edge(path.points[i], path.points[i + 1]);
-    if (edge != kNone && surface.twin[edge] != kNone) return true;
-  }
-  return false;
 }
 
 /// Extends a piece down the walls of the lips at which it begins or ends.

@@ -56,7 +56,7 @@ class GrowingPath {
   /// Goes one step on, or a leap across faces of one source triangle, or ends.
   void advance() {
     const Step step = find_step(plane_, path.points.back(), Snapping::by_shape, editor_, posed_);
-    if (step.corner == kNone || !may_go_to(step.corner / 3)) return end(PathEnd::surface);
+    if (step.corner == kNone || !may_take(step)) return end(PathEnd::surface);
     const Reach reach = reach_between(plane_, here_, step.position);
     // The progress at which the curve ends; the path may snap to a point before it.
     come_to(plane_.progress(Vec3d(here_ + reach.fraction * (step.position - here_))));
@@ -81,10 +81,20 @@ class GrowingPath {
     path.end = how;
     has_ended_ = true;
   }
-  [[nodiscard]] bool may_go_to(Index face) {
-    const bool is_wall = editor_.is_wall(face);
-    if (path.points.size() == 1) path.is_on_wall = is_wall;
-    return path.is_on_wall || !is_wall;
+  /// Whether a step belongs to the path: it leads along a lip as the first one did, or not, and to
+  /// a wall only if the path began on one.
+  [[nodiscard]] bool may_take(const Step& step) {
+    const bool is_along_lip = leads_along_lip(step);
+    const bool is_wall = !is_along_lip && editor_.is_wall(step.corner / 3);
+    if (path.points.size() == 1) {
+      path.is_along_lip = is_along_lip;
+      path.is_on_wall = is_wall;
+    }
+    return is_along_lip == path.is_along_lip && (path.is_on_wall || !is_wall);
+  }
+  [[nodiscard]] bool leads_along_lip(const Step& step) const {
+    if (step.end_corner() == kNone) return false;
+    return is_lip(step.fraction == 0 ? step.corner : Surface::previous(step.corner), editor_);
   }
   void come_to(double progress) { path.progress = std::max(path.progress, progress); }
   void go_to(Index point, Index half_edge) {
@@ -160,7 +170,8 @@ class GrowingPath {
   /// @param progress_here  progress of the current place; updated.
   bool cross_next(double& progress_here, LineSplitter& splitter) {
     const Index entry = splitter.ahead();
-    if (entry == kNone || !editor_.origins.is_whole(entry / 3) || !may_go_to(entry / 3))
+    if (entry == kNone || !editor_.origins.is_whole(entry / 3) ||
+        (!path.is_on_wall && editor_.is_wall(entry / 3)))
       return false;
     const EdgeCrossing exit = find_exit(plane_, entry, editor_, posed_);
     if (!(exit.fraction > kSnapEdges && exit.fraction < 1 - kSnapEdges)) return false;

@@ -19,6 +19,8 @@ struct Path {
   /// Progress of the last crossing before it snapped, which may be to a point beyond.
   double crossing_progress = 0;
   bool is_on_wall = false;  ///< Whether it began on a wall. Other paths end at walls.
+  /// Whether it runs along a lip, where nothing is to be opened. Other paths end there.
+  bool is_along_lip = false;
 };
 
 /// Turns the curve in which the plane meets the surface into a run of edges: from `start` from face

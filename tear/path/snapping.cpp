@@ -21,15 +21,18 @@ double largest_coordinate(const Vec3f& a, const Vec3f& b) {
   return static_cast<double>(std::max(a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff()));
 }
 
-/// Whether an edge is one of a border that tears made.
-bool is_lip(Index half_edge, const SurfaceEditor& editor) {
-  return editor.surface().twin[half_edge] == kNone &&
+/// Whether an edge is part of a lip that a tear made.
+bool is_torn_lip(Index half_edge, const SurfaceEditor& editor) {
+  return is_lip(half_edge, editor) &&
          !(editor.is_source_vertex(half_edge) && editor.is_source_vertex(Surface::next(half_edge)));
 }
 
-/// Whether a lip leaves the point of a corner.
-bool is_on_lip(Index corner, const SurfaceEditor& editor) {
-  return is_lip(editor.surface().first_of_fan(corner), editor);
+/// Whether such an edge begins in the point of a corner.
+bool is_on_torn_lip(Index corner, const SurfaceEditor& editor) {
+  bool is_on = false;
+  editor.surface().for_each_in_fan(corner,
+                                   [&](Index c) { is_on = is_on || is_torn_lip(c, editor); });
+  return is_on;
 }
 
 /// The corners of a face, in any space.
@@ -73,6 +76,11 @@ double same_place(double in_origin, double most) {
 
 }  // namespace
 
+bool is_lip(Index half_edge, const SurfaceEditor& editor) {
+  const Index across = editor.surface().twin[half_edge];
+  return across == kNone || editor.is_wall(half_edge / 3) != editor.is_wall(across / 3);
+}
+
 double stored_height(Index corner, const SurfaceEditor& editor) {
   const Index mesh = editor.surface().triangle(corner / 3).mesh;
   const auto at = [&](Index c) -> const Vec3f& {
@@ -100,7 +108,7 @@ double snapped_height(Index corner, Snapping snapping, const SurfaceEditor& edit
                       PosedPoints& posed) {
   if (snapping == Snapping::tight) return stored_height(corner, editor);
   const Index base = Surface::next(corner);
-  if (snapping == Snapping::near || !is_lip(base, editor)) return kSnapEdges;
+  if (snapping == Snapping::near || !is_torn_lip(base, editor)) return kSnapEdges;
   const double same =
       same_place(corners_in_origin(corner / 3, editor).height_over(base % 3), kFarthestSnapEdges);
   const Corners face = posed_corners(corner / 3, editor, posed);
@@ -111,7 +119,7 @@ double snapped_height(Index corner, Snapping snapping, const SurfaceEditor& edit
 
 bool is_at_lip_corner(const SurfaceHit& hit, Index corner, Snapping snapping,
                       const SurfaceEditor& editor, PosedPoints& posed) {
-  if (snapping == Snapping::tight || snapping == Snapping::near || !is_on_lip(corner, editor))
+  if (snapping == Snapping::tight || snapping == Snapping::near || !is_on_torn_lip(corner, editor))
     return false;
   const Corners in_origin = corners_in_origin(hit.triangle, editor);
   Vec3d place = Vec3d::Zero();
@@ -125,7 +133,7 @@ double snapped_part(Index half_edge, Snapping snapping, const SurfaceEditor& edi
                     PosedPoints& posed) {
   if (snapping == Snapping::tight) return stored_part(half_edge, editor);
   if (snapping == Snapping::near ||
-      (snapping == Snapping::near_or_lip && !is_lip(half_edge, editor)))
+      (snapping == Snapping::near_or_lip && !is_torn_lip(half_edge, editor)))
     return kSnapEdges;
   if (editor.is_source_vertex(half_edge) && editor.is_source_vertex(Surface::next(half_edge)))
     return kSnapEdges;

@@ -13,6 +13,10 @@ enum class Snapping : std::uint8_t {
   tight,        ///< The least distance at which two places are stored apart, and kTightSnapEdges.
 };
 
+/// Whether an edge is part of a lip or of another border: it has no other side, or a wall hangs
+/// from it.
+[[nodiscard]] bool is_lip(Index half_edge, const SurfaceEditor& editor);
+
 /// The fraction of an edge, from either end, within which a place snaps to that end.
 [[nodiscard]] double snapped_part(Index half_edge, Snapping snapping, const SurfaceEditor& editor,
                                   PosedPoints& posed);

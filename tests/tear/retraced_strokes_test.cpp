@@ -31,18 +31,25 @@ struct Sums {
 
 enum class Way { once, to_and_fro };
 
+struct Tears {
+  bool is_at_bind = false;
+  Way way = Way::once;
+  double wall_depth = 0;
+};
+
 /// Tears a ball along a random stroke, then four times again.
-void retrace(std::uint64_t seed, bool is_at_bind, Way way, Sums& sums) {
+void retrace(std::uint64_t seed, const Tears& tears, Sums& sums) {
   SCOPED_TRACE(seed);
   Random random(seed);
   Character ball = test::make_bumpy_ball(1000);
   test::rig_along(ball, 3);
   TearOperation tear;
-  const ModelPose pose = is_at_bind ? *bind_pose(ball) : test::random_pose(ball, random);
+  const ModelPose pose = tears.is_at_bind ? *bind_pose(ball) : test::random_pose(ball, random);
   const std::uint32_t segments = 3 + random.index(10);
   tear.stroke = test::random_stroke(ball, pose, random, 0.2, segments);
   tear.pose = pose;
-  if (way == Way::to_and_fro) {
+  tear.options.wall_depth = tears.wall_depth;
+  if (tears.way == Way::to_and_fro) {
     const Stroke forward = tear.stroke;
     for (int i = 0; i < 3; ++i) {
       tear.stroke.insert(tear.stroke.end(), forward.rbegin() + 1, forward.rend());
@@ -66,17 +73,17 @@ void retrace(std::uint64_t seed, bool is_at_bind, Way way, Sums& sums) {
   EXPECT_TRUE(test::broken_surface(*model).empty());
 }
 
-Sums retrace_many(bool is_at_bind, Way way) {
+Sums retrace_many(const Tears& tears) {
   Sums sums;
-  for (std::uint64_t seed = 0; seed < 40; ++seed) retrace(seed, is_at_bind, way, sums);
+  for (std::uint64_t seed = 0; seed < 40; ++seed) retrace(seed, tears, sums);
   return sums;
 }
 
 TEST(RetracedStrokes, add_little_in_the_bind_pose) {
-  const Sums once = retrace_many(true, Way::once);
+  const Sums once = retrace_many({.is_at_bind = true});
   EXPECT_EQ(once.more_pieces, 0u);
   EXPECT_LT(once.more_faces, once.faces / 5);
-  const Sums to_and_fro = retrace_many(true, Way::to_and_fro);
+  const Sums to_and_fro = retrace_many({.is_at_bind = true, .way = Way::to_and_fro});
   EXPECT_LE(to_and_fro.pieces + to_and_fro.more_pieces, 4u);
   EXPECT_LT(to_and_fro.faces, 5 * once.faces / 4);
   EXPECT_LT(to_and_fro.more_faces, once.faces / 3);
@@ -84,14 +91,25 @@ TEST(RetracedStrokes, add_little_in_the_bind_pose) {
 
 /// Weights put new points beside the line of the stroke, by more than rounding.
 TEST(RetracedStrokes, hardly_set_flakes_free_in_bent_poses) {
-  const Sums once = retrace_many(false, Way::once);
+  const Sums once = retrace_many({});
   EXPECT_EQ(once.pieces, 0u);
   EXPECT_LE(once.more_pieces, 40u * 4 / 8);
   EXPECT_LT(once.more_faces, once.faces / 5);
-  const Sums to_and_fro = retrace_many(false, Way::to_and_fro);
+  const Sums to_and_fro = retrace_many({.way = Way::to_and_fro});
   EXPECT_LE(to_and_fro.pieces, 8u);
   EXPECT_LE(to_and_fro.more_pieces, 40u * 4 / 4);
   EXPECT_LT(to_and_fro.more_faces, once.faces / 3);
+}
+
+/// Walls stay at their lips.
+TEST(RetracedStrokes, leave_walls_as_they_are) {
+  for (const Way way : {Way::once, Way::to_and_fro})
+    for (const bool is_at_bind : {true, false}) {
+      const Sums sums = retrace_many({is_at_bind, way, 0.1});
+      EXPECT_LE(sums.pieces, 8u);
+      EXPECT_LE(sums.more_pieces, 40u * 4 / 4);
+      EXPECT_LT(sums.more_faces, sums.faces / 15);
+    }
 }
 
 }  // namespace
