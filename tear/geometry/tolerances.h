@@ -62,9 +62,11 @@ inline constexpr double kAxisSine = 1e-3;
 /// Outlines of gaps: less than rounding shows.
 inline constexpr double kTightSnapEdges = 1e-9;
 /// A path on edges of the source, and on heights of its faces: it moves by less than is visible.
+/// Next to lips, in barycentric coordinates of the source triangle.
 inline constexpr double kSnapEdges = 1e-3;
-/// A path on edges that tears made; the size is that of the adjacent faces. A nearer place would
-/// leave a sliver. Tears made these faces small, so the path still moves by little.
+/// A path on edges that tears made, and its ends next to lips; the size is that of the adjacent
+/// faces. A nearer place would leave a sliver. Tears made these faces small, so the path still
+/// moves by little.
 inline constexpr double kSliverSizes = 3e-2;
 /// The farthest at which places that cannot be stored apart snap.
 inline constexpr double kFarthestSnapEdges = 0.25;

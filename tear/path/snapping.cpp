@@ -68,12 +68,6 @@ Corners corners_in_origin(Index face, const SurfaceEditor& editor) {
            place_in_origin(3 * face + 2, editor)}};
 }
 
-/// How near is near, as a part of a length in the pose that is `in_origin` long in barycentric
-/// coordinates: in every source triangle the same share of its size.
-double same_place(double in_origin, double most) {
-  return in_origin > 0 ? std::min(most, kSnapEdges / in_origin) : most;
-}
-
 }  // namespace
 
 bool is_lip(Index half_edge, const SurfaceEditor& editor) {
@@ -109,12 +103,11 @@ double snapped_height(Index corner, Snapping snapping, const SurfaceEditor& edit
   if (snapping == Snapping::tight) return stored_height(corner, editor);
   const Index base = Surface::next(corner);
   if (snapping == Snapping::near || !is_torn_lip(base, editor)) return kSnapEdges;
-  const double same =
-      same_place(corners_in_origin(corner / 3, editor).height_over(base % 3), kFarthestSnapEdges);
   const Corners face = posed_corners(corner / 3, editor, posed);
   const double height = face.height_over(base % 3), sliver = kSliverSizes * face.longest_side();
-  return height > 0 ? std::max(same, std::min(kFarthestSnapEdges, sliver / height))
-                    : kFarthestSnapEdges;
+  const double in_origin = corners_in_origin(corner / 3, editor).height_over(base % 3);
+  if (!(height > 0 && in_origin > 0)) return kFarthestSnapEdges;
+  return std::min(kFarthestSnapEdges, std::max(sliver / height, kSnapEdges / in_origin));
 }
 
 bool is_at_lip_corner(const SurfaceHit& hit, Index corner, Snapping snapping,
