@@ -24,6 +24,8 @@ constexpr std::array kFamilies = {
            plane_stacks},
     Family{"winding", "hairpins, spirals, strokes that cross and retrace themselves", true, 60,
            winding_strokes},
+    Family{"retraced", "the same operation again, and nearly the same, with gaps and walls", true,
+           40, retraced_strokes},
     Family{"ends", "tears that end in faces, on edges, in vertices, on tips and on older tears",
            true, 60, strokes_that_end_anywhere},
     Family{"turns", "blades that turn about a far point and step back", true, 60, far_turns},

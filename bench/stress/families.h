@@ -33,7 +33,8 @@ CaseFunction random_operations, hard_operations, cracked_bodies, scaled_and_shif
 // Planes that meet vertices and edges, and one another (plane_cases.cpp).
 CaseFunction planes_at_vertices, plane_bundles, plane_stacks;
 // Strokes that turn, return and end at difficult places (stroke_cases.cpp).
-CaseFunction winding_strokes, strokes_that_end_anywhere, far_turns, long_strokes, tiny_strokes;
+CaseFunction winding_strokes, retraced_strokes, strokes_that_end_anywhere, far_turns, long_strokes,
+    tiny_strokes;
 // Long sequences (sequence_cases.cpp).
 CaseFunction many_cuts, one_region;
 // Limits of memory and size (limit_cases.cpp).

@@ -106,6 +106,31 @@ void winding_strokes(std::uint64_t seed, const Steps& steps, CaseReport& report)
   });
 }
 
+void retraced_strokes(std::uint64_t seed, const Steps& steps, CaseReport& report) {
+  Random random = random_of(seed, 0);
+  TornSubject subject(test::random_character(random), report);
+  run_steps(subject, seed, steps, 3, [](TornSubject& of, Random& numbers, std::uint32_t) {
+    Operation operation = test::random_operation(of.model(), numbers);
+    auto* const tear = std::get_if<TearOperation>(&operation);
+    const ModelPose pose = *bind_pose(of.model().source());
+    const double size = test::posed_diagonal(of.model().source(), pose);
+    if (tear != nullptr && numbers.index(2) == 0)
+      tear->options.wall_depth = numbers.uniform(0.002, 0.03) * size;
+    if (tear != nullptr && numbers.index(3) == 0)  // to and fro
+      for (std::size_t i = tear->stroke.size() - 1; i-- > 0;)
+        tear->stroke.push_back(Blade(tear->stroke[i]));
+    for (int n = 0; n < 3; ++n) {
+      of.operate(operation);
+      if (tear == nullptr || numbers.index(2) == 0) continue;
+      const double unsteady = test::any_scale(numbers, 1e-8, 1e-2) * size;
+      for (Blade& blade : tear->stroke) {
+        const Vec3d aside = unsteady * numbers.direction();
+        blade = {blade.base + aside, blade.tip + aside};
+      }
+    }
+  });
+}
+
 void strokes_that_end_anywhere(std::uint64_t seed, const Steps& steps, CaseReport& report) {
   Random random = random_of(seed, 0);
   TornSubject subject(test::make_sheet(1 + random.index(10)), report);
