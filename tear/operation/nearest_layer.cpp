@@ -66,11 +66,13 @@ NearestLayerSegment::Reached NearestLayerSegment::tear_piece(Index start,
   if (path.is_along_lip && path.end != PathEnd::blade)
     return {take_back(path, start, continues, before), true};
   last_end_ = path.points.back();
-  if (!path.is_on_wall && !path.is_along_lip) add_walls(path);
-  if (!path.is_along_lip) open(path);
+  if (!path.is_along_lip) {
+    if (!path.is_on_wall) add_walls(path);
+    open(path);
+    outcome_.report.faces_crossed += path.faces_crossed;
+    outcome_.report.length_posed += path.length_posed;
+  }
   if (!continues) ++outcome_.report.runs;
-  outcome_.report.faces_crossed += path.faces_crossed;
-  outcome_.report.length_posed += path.length_posed;
   if (path.end != PathEnd::blade) return {path.progress, true};
   // At a lip the next segment may begin on the other side, on a wall at a lip above.
   if (path.is_on_wall || path.points.back() != last_end_) return {1.0, true};

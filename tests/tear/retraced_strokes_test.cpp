@@ -27,6 +27,7 @@ std::size_t face_count(const TornModel& model) {
 struct Sums {
   std::size_t faces = 0, more_faces = 0;    ///< That the first strokes made, and further ones.
   std::size_t pieces = 0, more_pieces = 0;  ///< That they set free.
+  double length = 0, more_length = 0;       ///< Of the tears, without ways along older lips.
 };
 
 enum class Way { once, to_and_fro };
@@ -66,6 +67,7 @@ void retrace(std::uint64_t seed, const Tears& tears, Sums& sums) {
     const std::size_t after = face_count(*model);
     (n == 0 ? sums.faces : sums.more_faces) += after - before;
     (n == 0 ? sums.pieces : sums.more_pieces) += report->pieces.size();
+    (n == 0 ? sums.length : sums.more_length) += report->length_posed;
     before = after;
     EXPECT_TRUE(test::broken_lips(*model, change).empty());
   }
@@ -82,9 +84,12 @@ Sums retrace_many(const Tears& tears) {
 TEST(RetracedStrokes, add_little_in_the_bind_pose) {
   const Sums once = retrace_many({.is_at_bind = true});
   EXPECT_EQ(once.more_pieces, 0u);
+  EXPECT_EQ(once.more_length, 0);
   EXPECT_LT(once.more_faces, once.faces / 5);
   const Sums to_and_fro = retrace_many({.is_at_bind = true, .way = Way::to_and_fro});
   EXPECT_LE(to_and_fro.pieces + to_and_fro.more_pieces, 4u);
+  EXPECT_NEAR(to_and_fro.length, once.length, 0.01 * once.length);
+  EXPECT_EQ(to_and_fro.more_length, 0);
   EXPECT_LT(to_and_fro.faces, 5 * once.faces / 4);
   EXPECT_LT(to_and_fro.more_faces, once.faces / 3);
 }
@@ -98,6 +103,7 @@ TEST(RetracedStrokes, hardly_set_flakes_free_in_bent_poses) {
   const Sums to_and_fro = retrace_many({.way = Way::to_and_fro});
   EXPECT_LE(to_and_fro.pieces, 8u);
   EXPECT_LE(to_and_fro.more_pieces, 40u * 4 / 4);
+  EXPECT_LT(to_and_fro.more_length, to_and_fro.length / 8);
   EXPECT_LT(to_and_fro.more_faces, once.faces / 3);
 }
 

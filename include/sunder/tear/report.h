@@ -92,7 +92,8 @@ struct TearReport {
   std::uint32_t triangles_retired = 0;
   /// Places where the surface could not be torn, because its faces are too small or degenerate.
   std::uint32_t blocked = 0;
-  /// Length of the tear, or of all edges of a cut, on the posed surface, metres.
+  /// Length of the tear without ways along older lips, or of all edges of a cut, on the posed
+  /// surface, metres.
   double length_posed = 0.0;
   /// Posed area of the surface that lay in the gap or bore, square metres.
   double area_removed_posed = 0.0;
