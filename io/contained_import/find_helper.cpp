@@ -4,9 +4,13 @@
 #include <cerrno>
 #include <cstring>
 #include <dlfcn.h>
+#include <fcntl.h>
 #include <string>
+#include <sys/auxv.h>
+#include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
+#include <utility>
 #include <vector>
 
 namespace sunder::contained_import {
@@ -16,60 +20,139 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kName = "sunder-import";
+/// A new process gets its streams and its socket below this one.
+constexpr int kLeastDescriptor = 10;
 
-bool is_executable(const fs::path& file) {
-  std::error_code error;
-  return fs::is_regular_file(file, error) && access(file.c_str(), X_OK) == 0;
+/// A folder that holds this code, and the folder of its kind in an installation: "lib", "bin".
+struct OwnFolder {
+  fs::path folder;
+  fs::path kind;
+};
+
+/// The file of the shared library that contains this code; empty if the program itself does. The
+/// name that dladdr() gives for a program is what its caller called it, which need not be its path.
+fs::path own_library() {
+  Dl_info code{}, program{};
+  if (dladdr(reinterpret_cast<const void*>(&own_library), &code) == 0 ||
+      code.dli_fname == nullptr ||
+      dladdr(reinterpret_cast<const void*>(getauxval(AT_PHDR)), &program) == 0 ||
+      code.dli_fbase == program.dli_fbase)
+    return {};
+  fs::path library = code.dli_fname;
+  // A relative one was meant for the folder that was current when the library was loaded.
+  return library.is_absolute() ? library : fs::path();
 }
 
-/// Folders of the file that contains this code, which is the library or the program that links it,
-/// and of the program.
-std::vector<fs::path> own_folders() {
-  std::vector<fs::path> folders;
-  std::error_code error;
-  Dl_info about{};
-  if (dladdr(reinterpret_cast<const void*>(&own_folders), &about) != 0 &&
-      about.dli_fname != nullptr)
-    if (fs::path library = fs::canonical(about.dli_fname, error); !error)
-      folders.push_back(library.parent_path());
-  if (fs::path program = fs::canonical("/proc/self/exe", error);
-      !error && std::find(folders.begin(), folders.end(), program.parent_path()) == folders.end())
-    folders.push_back(program.parent_path());
+/// Folders of the shared library that contains this code, and of the program.
+std::vector<OwnFolder> own_folders() {
+  std::vector<OwnFolder> folders;
+  const auto add = [&](const fs::path& file, const char* kind) {
+    std::error_code error;
+    const fs::path whole = fs::canonical(file, error);
+    if (!error) folders.push_back({whole.parent_path(), kind});
+  };
+  if (const fs::path library = own_library(); !library.empty()) add(library, SUNDER_LIBRARY_FOLDER);
+  add("/proc/self/exe", SUNDER_PROGRAM_FOLDER);
   return folders;
 }
 
+/// The root of the installation: "/usr" for /usr/lib/x86_64-linux-gnu, if libraries are installed
+/// in lib/x86_64-linux-gnu. Empty for a folder that has another name.
+fs::path installation_of(const OwnFolder& own) {
+  fs::path root = own.folder;
+  const fs::path kind = own.kind.lexically_normal();
+  if (kind.empty() || kind.is_absolute()) return {};
+  for (auto part = kind.end(); part != kind.begin(); root = root.parent_path())
+    if (root.filename() != *--part) return {};
+  return root;
+}
+
 /// An installed library does not use the build tree, in which others may be able to write.
-bool is_in_build_tree(const fs::path& folder) {
+bool is_in_build_tree(const OwnFolder& own) {
   std::error_code error;
   const fs::path tree = fs::canonical(SUNDER_BUILD_FOLDER, error);
   return !error &&
-         std::mismatch(tree.begin(), tree.end(), folder.begin(), folder.end()).first == tree.end();
+         std::mismatch(tree.begin(), tree.end(), own.folder.begin(), own.folder.end()).first ==
+             tree.end();
+}
+
+std::vector<fs::path> places_of(const std::vector<OwnFolder>& folders) {
+  std::vector<fs::path> places;
+  for (const OwnFolder& own : folders) {
+    places.push_back(own.folder / kName);
+    if (const fs::path root = installation_of(own); !root.empty())
+      places.push_back((root / SUNDER_HELPER_FOLDER / kName).lexically_normal());
+  }
+  if (std::any_of(folders.begin(), folders.end(), is_in_build_tree))
+    places.emplace_back(SUNDER_BUILT_HELPER);
+  places.emplace_back(SUNDER_INSTALLED_HELPER);
+  return places;
+}
+
+/// Whether nobody but root and the effective user can change it.
+bool is_ours(const struct stat& about) {
+  const uid_t user = geteuid();
+  if (about.st_uid != 0 && about.st_uid != user) return false;
+  if ((about.st_mode & S_IWOTH) != 0) return false;
+  const bool is_private_group = user != 0 && about.st_uid == user && about.st_gid == user;
+  return (about.st_mode & S_IWGRP) == 0 || is_private_group;
+}
+
+Status unusable(const fs::path& file, const char* why) {
+  return Status::failure(StatusCode::file_unreadable, kNone, "the helper executable '%.140s' %s",
+                         file.c_str(), why);
+}
+
+/// @return file_not_found if nothing is there.
+Result<HelperFile> open_helper(const fs::path& file) {
+  std::error_code error;
+  const fs::path whole = fs::canonical(file, error);
+  if (error)
+    return Status::failure(StatusCode::file_not_found, kNone, "no file '%.200s'", file.c_str());
+  const files::Descriptor folder(
+      ::open(whole.parent_path().c_str(), O_PATH | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
+  const files::Descriptor opened(
+      openat(folder.value(), whole.filename().c_str(), O_PATH | O_NOFOLLOW | O_CLOEXEC));
+  struct stat of_file = {}, of_folder = {};
+  if (!opened.is_open() || fstat(folder.value(), &of_folder) != 0 ||
+      fstat(opened.value(), &of_file) != 0)
+    return unusable(file, "cannot be opened");
+  if (!S_ISREG(of_file.st_mode) ||
+      faccessat(folder.value(), whole.filename().c_str(), X_OK, AT_EACCESS) != 0)
+    return unusable(file, "is not an executable file");
+  if (!is_ours(of_file))
+    return unusable(file, "is refused: another user owns it or can write to it");
+  if (!is_ours(of_folder))
+    return unusable(file, "is refused: another user owns its folder or can write to it");
+  files::Descriptor above(fcntl(opened.value(), F_DUPFD_CLOEXEC, kLeastDescriptor));
+  if (!above.is_open())
+    return Status::failure(StatusCode::limit_exceeded, kNone, "too many open files");
+  return HelperFile{file, std::move(above)};
 }
 
 }  // namespace
 
-Result<fs::path> find_helper(const fs::path& named) {
+Result<HelperFile> find_helper(const fs::path& named) {
   if (!named.empty()) {
-    if (is_executable(named)) return named;
-    std::error_code error;
-    return Status::failure(
-        fs::exists(named, error) ? StatusCode::file_unreadable : StatusCode::file_not_found, kNone,
-        "LoadOptions::import_helper '%.160s' is not an executable file", named.c_str());
+    Result<HelperFile> helper = open_helper(named);
+    if (helper || helper.error().code() == StatusCode::limit_exceeded) return helper;
+    return Status::failure(helper.error().code(), kNone, "LoadOptions::import_helper: %s",
+                           helper.error().text().data());
   }
-  const std::vector<fs::path> folders = own_folders();
-  for (const fs::path& folder : folders)
-    // Library folders may have two levels: lib/x86_64-linux-gnu.
-    for (const char* const place : {".", "../libexec", "../bin", "../../libexec", "../../bin"})
-      if (fs::path file = (folder / place / kName).lexically_normal(); is_executable(file))
-        return file;
-  if (std::any_of(folders.begin(), folders.end(), is_in_build_tree) &&
-      is_executable(SUNDER_BUILT_HELPER))
-    return fs::path(SUNDER_BUILT_HELPER);
-  if (is_executable(SUNDER_INSTALLED_HELPER)) return fs::path(SUNDER_INSTALLED_HELPER);
-  return Status::failure(
-      StatusCode::file_not_found, kNone,
-      "no helper executable '%s' in %.100s (or ../libexec, ../bin): set LoadOptions::import_helper",
-      kName, folders.empty() ? "the program's folder" : folders.back().c_str());
+  const std::vector<OwnFolder> folders = own_folders();
+  Status refusal;
+  for (const fs::path& place : places_of(folders)) {
+    Result<HelperFile> helper = open_helper(place);
+    if (helper || helper.error().code() == StatusCode::limit_exceeded) return helper;
+    if (refusal && helper.error().code() != StatusCode::file_not_found) refusal = helper.error();
+  }
+  if (!refusal) return refusal;
+  return Status::failure(StatusCode::file_not_found, kNone,
+                         "no helper executable '%s' in %.100s, nor in %s of its installation: set "
+                         "LoadOptions::import_helper",
+                         kName,
+                         folders.empty() ? "the program's folder" : folders.back().folder.c_str(),
+                         SUNDER_HELPER_FOLDER);
 }
 
 }  // namespace sunder::contained_import

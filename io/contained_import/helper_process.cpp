@@ -24,10 +24,13 @@ using import_messages::Socket;
 
 namespace {
 
+/// The descriptor of the program in the new process, which closes it.
+constexpr int kProgram = import_messages::kSocket + 1;
+
 /// The actions of posix_spawn() in the new process before it executes the helper.
 class SpawnPlan {
  public:
-  explicit SpawnPlan(int socket) {
+  SpawnPlan(int socket, int program) : program_("/proc/self/fd/" + std::to_string(kProgram)) {
     posix_spawn_file_actions_init(&actions_);
     posix_spawnattr_init(&attributes_);
     // The socket comes first: it may be 0, 1 or 2 if the program has closed these.
@@ -35,6 +38,8 @@ class SpawnPlan {
     posix_spawn_file_actions_addopen(&actions_, 0, "/dev/null", O_RDWR, 0);
     posix_spawn_file_actions_adddup2(&actions_, 0, 1);
     posix_spawn_file_actions_adddup2(&actions_, 0, 2);
+    // Without close-on-exec, so that scripts and emulators of other processors can read it.
+    posix_spawn_file_actions_adddup2(&actions_, program, kProgram);
 
     sigset_t signals;
     sigfillset(&signals);
@@ -54,8 +59,8 @@ class SpawnPlan {
   SpawnPlan(const SpawnPlan&) = delete;
   SpawnPlan& operator=(const SpawnPlan&) = delete;
 
-  [[nodiscard]] int spawn(const std::filesystem::path& program, pid_t& id) const {
-    std::string name = program.string();
+  /// @param name  that the program is told.
+  [[nodiscard]] int spawn(std::string name, pid_t& id) const {
     char* arguments[] = {name.data(), nullptr};
     // Large pages, and memory that is kept for later arrays: a third of the page faults.
     std::string memory =
@@ -67,12 +72,13 @@ class SpawnPlan {
       libraries = std::string("LD_LIBRARY_PATH=") + path;
       environment[1] = libraries.data();
     }
-    return posix_spawn(&id, name.c_str(), &actions_, &attributes_, arguments, environment);
+    return posix_spawn(&id, program_.c_str(), &actions_, &attributes_, arguments, environment);
   }
 
  private:
   posix_spawn_file_actions_t actions_;
   posix_spawnattr_t attributes_;
+  std::string program_;  ///< Not the path of the helper, which may lead elsewhere by now.
 };
 
 files::Descriptor descriptor_of_process([[maybe_unused]] pid_t id) {
@@ -85,8 +91,7 @@ files::Descriptor descriptor_of_process([[maybe_unused]] pid_t id) {
 
 }  // namespace
 
-Result<HelperProcess> HelperProcess::start(const std::filesystem::path& helper,
-                                           Clock::time_point deadline) {
+Result<HelperProcess> HelperProcess::start(const HelperFile& helper, Clock::time_point deadline) {
   int ends[2];
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
     return Status::failure(StatusCode::limit_exceeded, kNone,
@@ -99,10 +104,12 @@ Result<HelperProcess> HelperProcess::start(const std::filesystem::path& helper,
       return Status::failure(StatusCode::limit_exceeded, kNone, "too many open files");
   }
   pid_t id = -1;
-  if (const int error = SpawnPlan(other.value()).spawn(helper, id); error != 0)
+  if (const int error =
+          SpawnPlan(other.value(), helper.descriptor.value()).spawn(helper.path.string(), id);
+      error != 0)
     return Status::failure(error == EAGAIN || error == ENOMEM ? StatusCode::limit_exceeded
                                                               : StatusCode::file_unreadable,
-                           kNone, "cannot start the importer '%.120s': %s", helper.c_str(),
+                           kNone, "cannot start the importer '%.120s': %s", helper.path.c_str(),
                            std::strerror(error));
   return HelperProcess(id, Socket(std::move(own), deadline));
 }

@@ -2,9 +2,9 @@
 
 #include <sunder/core/status.h>
 
-#include <filesystem>
 #include <sys/types.h>
 
+#include "io/contained_import/find_helper.h"
 #include "io/files/descriptor.h"
 #include "io/import_messages/socket.h"
 
@@ -14,11 +14,10 @@ namespace sunder::contained_import {
 class HelperProcess {
  public:
   /// Starts `helper` with one end of a socket, /dev/null as its standard streams, no other
-  /// descriptor, an environment of
-  /// LD_LIBRARY_PATH and settings of malloc, in a session of its own.
+  /// descriptor, an environment of LD_LIBRARY_PATH and settings of malloc, in a session of its own.
   /// @return file_unreadable if it cannot be executed, limit_exceeded if there are no descriptors
   ///         or processes.
-  [[nodiscard]] static Result<HelperProcess> start(const std::filesystem::path& helper,
+  [[nodiscard]] static Result<HelperProcess> start(const HelperFile& helper,
                                                    import_messages::Clock::time_point deadline);
 
   HelperProcess(HelperProcess&& other) noexcept;

@@ -131,7 +131,7 @@ Result<ImportedGlb> run_helper(const ModelFile& model, files::AllowedFiles& allo
   const auto deadline =
       Clock::now() + std::chrono::duration_cast<Clock::duration>(
                          std::chrono::duration<double>(std::min(options.import_seconds, 1e8)));
-  const Result<std::filesystem::path> helper = find_helper(options.import_helper);
+  const Result<HelperFile> helper = find_helper(options.import_helper);
   if (!helper) return helper.error();
   Result<HelperProcess> process = HelperProcess::start(*helper, deadline);
   if (!process) return process.error();
@@ -156,7 +156,7 @@ Result<ImportedGlb> run_helper(const ModelFile& model, files::AllowedFiles& allo
   const auto patience = std::chrono::milliseconds(must_stop ? 0 : 500);
   const int status = process->finish(Clock::now() + patience);
   if (conversation.outcome == Outcome::replied) return imported_from(conversation, model);
-  if (conversation.outcome == Outcome::wrong_helper) return wrong_helper(*helper, status);
+  if (conversation.outcome == Outcome::wrong_helper) return wrong_helper(helper->path, status);
   return failure_of(conversation, status, import_memory_of(bytes, options), model, options);
 }
 
