@@ -5,7 +5,7 @@
 #include <new>
 #include <system_error>
 
-#include "io/files/write_atomically.h"
+#include "io/internal/staged_file.h"
 #include "io/operation_log/format.h"
 #include "io/operation_log/parse_json.h"
 #include "io/operation_log/read_operation.h"
@@ -105,7 +105,7 @@ Result<std::string> format_operations(std::span<const Operation> operations) {
 Status save_operations(const std::filesystem::path& file, std::span<const Operation> operations) {
   try {
     const std::string text = write_text(operations);
-    return write_atomically(file, std::as_bytes(std::span<const char>(text)));
+    return write_file(file, std::as_bytes(std::span<const char>(text)));
   } catch (...) {
     return status_of_current_exception();
   }

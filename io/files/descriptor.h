@@ -24,6 +24,8 @@ class Descriptor {
     if (value_ >= 0) close(value_);
     value_ = -1;
   }
+  /// @return false, with errno, if the system reports only now that a write has failed.
+  [[nodiscard]] bool close_now() { return close(std::exchange(value_, -1)) == 0; }
   [[nodiscard]] int value() const { return value_; }
   [[nodiscard]] bool is_open() const { return value_ >= 0; }
 

@@ -6,7 +6,6 @@
 #include <map>
 #include <set>
 
-#include "io/files/write_atomically.h"
 #include "io/gltf/container.h"
 #include "io/gltf/glb.h"
 #include "io/gltf/refusal.h"
@@ -14,6 +13,7 @@
 #include "io/gltf_patch/repair_document.h"
 #include "io/gltf_write/mesh_writer.h"
 #include "io/gltf_write/rig_writer.h"
+#include "io/internal/staged_file.h"
 
 namespace sunder::gltf {
 namespace {
@@ -403,7 +403,7 @@ Result<std::vector<WrittenInfluences>> influences_of_written(const Character& ch
 Status write_character(const std::filesystem::path& file, const Character& character,
                        const LoadedCharacter& loaded, const SaveOptions& options) {
   try {
-    return write_atomically(file, glb_of(character, loaded, options));
+    return write_file(file, glb_of(character, loaded, options));
   } catch (...) {
     return status_of_current_exception();
   }

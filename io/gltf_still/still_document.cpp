@@ -5,10 +5,10 @@
 #include <string>
 #include <utility>
 
-#include "io/files/write_atomically.h"
 #include "io/gltf/refusal.h"
 #include "io/gltf_still/still_materials.h"
 #include "io/gltf_write/mesh_writer.h"
+#include "io/internal/staged_file.h"
 
 namespace sunder::gltf {
 namespace {
@@ -183,7 +183,7 @@ Result<std::uint32_t> write_still(const std::filesystem::path& file, const Still
   return without_exceptions<std::uint32_t>([&]() -> Result<std::uint32_t> {
     StillDocument document(scene, materials);
     const std::vector<std::byte> bytes = document.write();
-    if (const Status status = write_atomically(file, bytes); !status) return status;
+    if (const Status status = write_file(file, bytes); !status) return status;
     return document.materials_without_texture();
   });
 }

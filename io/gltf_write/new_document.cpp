@@ -6,13 +6,13 @@
 #include <string>
 #include <utility>
 
-#include "io/files/write_atomically.h"
 #include "io/gltf/glb.h"
 #include "io/gltf/refusal.h"
 #include "io/gltf_write/clip_writer.h"
 #include "io/gltf_write/copied_materials.h"
 #include "io/gltf_write/mesh_writer.h"
 #include "io/gltf_write/rig_writer.h"
+#include "io/internal/staged_file.h"
 
 namespace sunder::gltf {
 namespace {
@@ -306,7 +306,7 @@ Status write(const std::filesystem::path& file, const Character& character,
   try {
     check_options(options, character.meshes.size());
     if (const Status status = validate_character(character); !status) return status;
-    return write_atomically(file, NewDocument(character, options, copied, nullptr).write());
+    return write_file(file, NewDocument(character, options, copied, nullptr).write());
   } catch (...) {
     return status_of_current_exception();
   }

@@ -136,9 +136,9 @@ Result<AnyBinding> bind_models(const BindRequest& request, const Inputs& inputs)
 
 /// Writes the model and its report: both, or none.
 ExitCode write_files(const BindRequest& request, const Inputs& inputs, const AnyBinding& binding) {
-  std::optional<StagedText> report;
+  std::optional<StagedFile> report;
   if (request.report) {
-    report.emplace(*request.report, dump(bind_json(request, binding, inputs.place)));
+    report.emplace(*request.report, bytes_of(dump(bind_json(request, binding, inputs.place))));
     if (!report->status())
       return complain(request.report->string(), report->status(), ExitCode::unreadable_input);
   }

@@ -2,28 +2,24 @@
 
 #include <sunder/core/status.h>
 
+#include <cstddef>
 #include <filesystem>
-#include <string>
+#include <span>
+#include <string_view>
+
+#include "io/internal/staged_file.h"
 
 namespace sunder::tools {
 
-/// A text file that appears under its name when it is committed, and otherwise leaves nothing.
-class StagedText {
- public:
-  StagedText(std::filesystem::path file, const std::string& text);
-  ~StagedText();
-  StagedText(const StagedText&) = delete;
-  StagedText& operator=(const StagedText&) = delete;
-
-  [[nodiscard]] const Status& status() const { return status_; }
-  [[nodiscard]] Status commit();
-
- private:
-  std::filesystem::path file_, partial_;
-  Status status_;
-};
+/// The bytes of a text, for a StagedFile.
+[[nodiscard]] inline std::span<const std::byte> bytes_of(std::string_view text) {
+  return std::as_bytes(std::span(text));
+}
 
 /// Writes the whole text or nothing.
-[[nodiscard]] Status write_text(const std::filesystem::path& file, const std::string& text);
+/// @return file_unreadable.
+[[nodiscard]] inline Status write_text(const std::filesystem::path& file, std::string_view text) {
+  return write_file(file, bytes_of(text));
+}
 
 }  // namespace sunder::tools

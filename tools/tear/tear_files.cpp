@@ -19,14 +19,14 @@ class TextBesideModel {
  public:
   /// Does nothing without a file.
   TextBesideModel(const std::optional<std::filesystem::path>& file, const std::string& text) {
-    if (file) staged_.emplace(*file, text);
+    if (file) staged_.emplace(*file, bytes_of(text));
   }
 
   [[nodiscard]] Status status() const { return staged_ ? staged_->status() : Status(); }
   [[nodiscard]] Status commit() { return staged_ ? staged_->commit() : Status(); }
 
  private:
-  std::optional<StagedText> staged_;
+  std::optional<StagedFile> staged_;
 };
 
 /// The files that outputs must not overwrite; none with --force.

@@ -102,12 +102,12 @@ ExitCode read_rules(const TransferRequest& request, const Character& target,
 ExitCode write_files(const TransferRequest& request, const LoadedCharacter& target,
                      const TransferResult& result,
                      const std::optional<CertifiedWeights>& certified) {
-  std::optional<StagedText> report;
+  std::optional<StagedFile> report;
   if (request.report) {
     Json json = transfer_json(request, result);
     if (certified)
       json["certificate"] = certificate_json(*certified, result.character, *request.maximum_error);
-    report.emplace(*request.report, dump(json));
+    report.emplace(*request.report, bytes_of(dump(json)));
     if (!report->status())
       return complain(request.report->string(), report->status(), ExitCode::unreadable_input);
   }
