@@ -207,14 +207,20 @@ ExitCode draw_scene(const PictureRequest& request, const LoadedCharacter& loaded
   StillScene scene = make_scene(character, subject, frame);
   scene.marks = marks.finish(nearest_depth(subject, viewport));
 
-  const std::filesystem::path file = scene_file(request.output);
-  const Result<std::uint32_t> without_texture = save_still(file, scene, loaded.source.get());
+  const DrawingFolder folder;
+  if (!folder.exists()) {
+    print_error("sunder: no picture: cannot create a temporary folder");
+    return ExitCode::unreadable_input;
+  }
+  const Result<std::uint32_t> without_texture =
+      save_still(folder.scene(), scene, loaded.source.get());
   if (!without_texture)
     return complain(request.output.string(), without_texture.error(), ExitCode::internal_error);
   if (*without_texture > 0)
     warn(request.model.string() + ": " + std::to_string(*without_texture) +
          " materials are drawn without a texture: its image is missing, or neither PNG nor JPEG");
-  if (const Status status = render(file, viewport.camera(), request.size, request.output); !status)
+  if (const Status status = render(folder, viewport.camera(), request.size, request.output);
+      !status)
     return complain(request.output.string(), status, ExitCode::internal_error);
   return is_complete && *without_texture == 0 ? ExitCode::ok : ExitCode::findings;
 }

@@ -1,11 +1,15 @@
 #include "tools/picture/render.h"
 
 #include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
 #include <string>
 #include <system_error>
 #include <vector>
 
 #include "tools/messages/printed.h"
+#include "tools/messages/text_file.h"
 #include "tools/picture/spawn.h"
 
 namespace sunder::tools {
@@ -17,19 +21,25 @@ std::string numbers(const Vec3d& v) { return printed("%.9g,%.9g,%.9g", v.x(), v.
 
 bool can_draw() { return is_program_there("f3d") && is_program_there("xvfb-run"); }
 
-std::filesystem::path scene_file(const std::filesystem::path& png) {
-  std::filesystem::path scene = png;
-  return scene.replace_extension(".scene.glb");
+DrawingFolder::DrawingFolder() {
+  std::error_code error;
+  std::string name = (std::filesystem::temp_directory_path(error) / "sunder-XXXXXX").string();
+  if (!error && mkdtemp(name.data()) != nullptr) path_ = name;
 }
 
-Status render(const std::filesystem::path& scene, const Camera& camera, const PictureSize& size,
+DrawingFolder::~DrawingFolder() {
+  std::error_code ignored;
+  if (exists()) std::filesystem::remove_all(path_, ignored);
+}
+
+Status render(const DrawingFolder& folder, const Camera& camera, const PictureSize& size,
               const std::filesystem::path& png) {
   const std::vector<std::string> arguments = {
       "xvfb-run",
       "-a",
       "f3d",
-      scene.string(),
-      "--output=" + png.string(),
+      folder.scene().string(),
+      "--output=" + folder.picture().string(),
       "--dry-run",
       "--quiet",
       "--resolution=" + std::to_string(size.width) + "," + std::to_string(size.height),
@@ -40,16 +50,17 @@ Status render(const std::filesystem::path& scene, const Camera& camera, const Pi
       "--camera-focal-point=" + numbers(camera.focal_point),
       "--camera-view-up=" + numbers(camera.up),
       "--camera-view-angle=" + std::to_string(camera.view_angle_degrees)};
-  std::error_code ignored;
-  std::filesystem::remove(png, ignored);
   // Two xvfb-run that start at the same time may choose the same display; the one that fails is
   // started again.
-  for (int attempt = 0; attempt < 3 && !std::filesystem::exists(png, ignored); ++attempt)
+  std::error_code ignored;
+  for (int attempt = 0; attempt < 3 && !std::filesystem::exists(folder.picture(), ignored);
+       ++attempt)
     (void)run_program(arguments, std::chrono::seconds(120));
-  const bool is_drawn = std::filesystem::exists(png, ignored);
-  std::filesystem::remove(scene, ignored);
-  return is_drawn ? Status()
-                  : Status::failure(StatusCode::internal_error, kNone, "f3d wrote no picture");
+  std::ifstream stream(folder.picture(), std::ios::binary);
+  std::ostringstream picture;
+  picture << stream.rdbuf();
+  return stream ? write_text(png, picture.str())
+                : Status::failure(StatusCode::internal_error, kNone, "f3d wrote no picture");
 }
 
 }  // namespace sunder::tools
