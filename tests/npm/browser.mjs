@@ -38,6 +38,34 @@ export async function openPage(browser, file, facts, { colourScheme = 'light', w
   return page;
 }
 
+/** Whether the page runs scripts that were not in it, such as a name could bring. */
+export async function runsOtherScripts(page, facts) {
+  const errors = facts.errors.length;
+  const runs = await page.evaluate(async () => {
+    const script = document.createElement('script');
+    script.textContent = 'globalThis.pwned = 1';
+    const holder = document.createElement('div');
+    holder.innerHTML = '<img src="data:," onerror="globalThis.pwned = 2">';
+    document.body.append(script, holder);
+    await new Promise((resolve) => setTimeout(resolve, 300));
+    script.remove();
+    holder.remove();
+    return 'pwned' in globalThis;
+  });
+  facts.errors.length = errors;  // of the policy that refused them
+  return runs;
+}
+
+/** Control characters, and those that turn the direction of writing, in the texts of a page; but for line breaks. */
+export const unseen = (page) => page.evaluate(() => {
+  const texts = [document.title];
+  const walk = document.createTreeWalker(document.body, NodeFilter.SHOW_ELEMENT | NodeFilter.SHOW_TEXT);
+  for (let node = walk.currentNode; node; node = walk.nextNode())
+    if (node.nodeType !== Node.TEXT_NODE) texts.push(node.title ?? '', node.getAttribute('aria-label') ?? '');
+    else if (!node.parentElement.closest('script, style')) texts.push(node.data);
+  return texts.join('').match(/[\u0000-\u0009\u000b-\u001f\u007f-\u009f\u200e\u200f\u2028-\u202e\u2066-\u2069]/g)?.length ?? 0;
+});
+
 /** Waits for the picture that was asked for last. */
 export const settle = (page) => page.evaluate(() => new Promise((resolve) => {
   requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame(resolve)));

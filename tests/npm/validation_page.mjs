@@ -1,6 +1,6 @@
 // Opens a page of `sunder validate --html` in headless Chromium, uses it, and prints what happened
 // as JSON. Usage: node validation_page.mjs <page.html> [<picture.png>]
-import { boxDistance, changedBy, drawn, launch, openPage, settle } from './browser.mjs';
+import { boxDistance, changedBy, drawn, launch, openPage, runsOtherScripts, settle, unseen } from './browser.mjs';
 
 const [file, picture] = process.argv.slice(2);
 const browser = await launch();
@@ -93,6 +93,8 @@ facts.is_playing = await page.evaluate(() => sunder.player.isPlaying);
 await page.click('#findings summary');
 await settle(page);
 facts.markers = await page.$$eval('.marker', (list) => list.length);
+facts.unseen = await unseen(page);
+facts.runs_other_scripts = await runsOtherScripts(page, facts);
 
 const dark = await open('dark');
 facts.dark = (await dark.evaluate(() => sunder.stage.background.r)) < 0.2;

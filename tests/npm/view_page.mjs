@@ -7,7 +7,7 @@
 //        node view_page.mjs broken <page.html>           a page whose data cannot be read
 import { readdirSync, readFileSync, renameSync } from 'node:fs';
 import { join } from 'node:path';
-import { boxDistance, changedBy, drawn, launch, openPage, settle } from './browser.mjs';
+import { boxDistance, changedBy, drawn, launch, openPage, runsOtherScripts, settle, unseen } from './browser.mjs';
 
 const [mode, file, folder] = process.argv.slice(2);
 const browser = await launch();
@@ -215,6 +215,8 @@ async function testPlacing() {
   await testPosesOfTools(page);
   await testUndo(page);
   await testBones(page);
+  facts.unseen = await unseen(page);
+  facts.runs_other_scripts = await runsOtherScripts(page, facts);
   facts.changed_by_colours = await changedBy(page, () => page.keyboard.press('c'));
   facts.nameless = await nameless(page);
   await page.keyboard.press('?');

@@ -317,6 +317,8 @@ TEST(ValidationPage, works_in_a_browser) {
   EXPECT_EQ(facts["is_playing"], false);
   EXPECT_EQ(facts["markers"], 8);
   EXPECT_EQ(facts["dark"], true);
+  EXPECT_EQ(facts["runs_other_scripts"], false) << "the policy names the page's own scripts alone";
+  EXPECT_EQ(facts["unseen"], 0) << "control characters of names are shown as escapes";
 }
 
 }  // namespace

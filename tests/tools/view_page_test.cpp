@@ -31,7 +31,9 @@ constexpr double kTolerance = 1e-4;  // of the model's diagonal
 
 /// No name of a file may hold a slash.
 constexpr const char* kHostileFile = "a\"><img src=x onerror=pwned=1>.glb";
-constexpr const char* kHostileName = "</script><script>pwned=1</script><img src=x onerror=pwned=1>";
+/// It also turns the direction of writing, colours terminals and breaks lines.
+constexpr const char* kHostileName =
+    "</script><script>pwned=1</script><img src=x onerror=pwned=1>\u202e\x1b[31m\u009b\n\u2066";
 
 bool has_chromium() { return std::system("command -v chromium > /dev/null 2>&1") == 0; }
 
@@ -249,6 +251,8 @@ TEST_F(ViewPage, makes_operations_that_meet_the_places_that_were_clicked) {
 void ViewPage::names_stay_text() {
   EXPECT_EQ(facts_["title"], kHostileFile);
   EXPECT_EQ(facts_["injected"], json({nullptr, 0}));
+  EXPECT_EQ(facts_["runs_other_scripts"], false) << "the policy names the page's own scripts alone";
+  EXPECT_EQ(facts_["unseen"], 0) << "control characters of names are shown as escapes";
 }
 
 void ViewPage::draws_every_clip_where_the_processor_poses_the_model() {

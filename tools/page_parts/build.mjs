@@ -1,5 +1,6 @@
 // Bundles a page into one HTML file, and that into the pieces of a C++ source.
 // Usage: node build.mjs <folder of the page> <page.html> <template.cpp> <C++ function>
+import { createHash } from 'node:crypto';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { dirname, join, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -34,6 +35,13 @@ function licences(inputs) {
   }).join('\n\n');
 }
 
+/** What a policy allows, so that a browser runs no other script: the hash of each script; data is none. */
+function hashesOfScripts(page) {
+  const scripts = [...page.matchAll(/<script(?: type="module")?>([^]*?)<\/script>/g)];
+  if (scripts.length + 1 !== page.split('<script').length - 1) throw new Error('Unknown scripts.');
+  return scripts.map(([, text]) => `'sha256-${createHash('sha256').update(text).digest('base64')}'`).join(' ');
+}
+
 /** A string literal of C++; short ones, because compilers limit their length. */
 function literals(text) {
   const pieces = text.match(/[^]{1,8000}/gu);
@@ -46,10 +54,12 @@ function literals(text) {
 const style = await bundle('style.css');
 const script = await bundle('main.js');
 // A function as replacement, because "$&" in a bundle is no pattern.
-const html = readFileSync(join(folder, 'index.html'), 'utf8')
+const bundled = readFileSync(join(folder, 'index.html'), 'utf8')
   .replace('/* LICENCES */', () => `/*\n${licences(script.inputs)}\n*/`)
   .replace('/* STYLE */', () => style.text)
-  .replace('/* SCRIPT */', () => script.text);
+  .replace('/* SCRIPT */', () => script.text)
+  .replace(/\r\n?/g, '\n');  // as browsers read it before they compute hashes
+const html = bundled.replace('SCRIPT_HASHES', hashesOfScripts(bundled));
 if (html.split('SUNDER_PAGE_DATA').length !== 2) throw new Error('The data needs exactly one place.');
 writeFileSync(htmlFile, html);
 writeFileSync(cppFile, `#include "tools/page_parts/page_template.h"

@@ -223,7 +223,7 @@ void make_page_example(PageExample& example) {
   example.input.source = &example.source;
   example.input.target = &example.target;
   example.input.source_title = "cactus.glb";
-  example.input.target_title = "cactus_two_influences.glb";
+  example.input.target_title = "cactus_two_\u202einfluences.glb";
   example.input.source_bone_from_target =
       bones_by_name(example.source.skeleton, example.target.skeleton);
   add_clip(example);

@@ -1,5 +1,5 @@
 // Series over the time of a clip, above the slider of the time.
-import { svg } from './elements.js';
+import { setText, svg } from './elements.js';
 import { quantity } from './format.js';
 
 const WIDTH = 1000, HEIGHT = 64;
@@ -26,7 +26,7 @@ function titleOf(list) {
  * what says the time: f(seconds).
  */
 export function drawChart(holder, title, list, clip) {
-  title.textContent = titleOf(list);
+  setText(title, titleOf(list));
   holder.replaceChildren();
   holder.hidden = !list.length || !clip || !(clip.duration > 0);
   if (holder.hidden) return () => {};

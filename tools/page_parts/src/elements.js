@@ -2,11 +2,27 @@
 
 const SVG = 'http://www.w3.org/2000/svg';
 
+/** Attributes that are shown. */
+const TEXTS = ['title', 'label', 'aria-label'];
+
+/** The same characters as those of tools/messages/visible.cpp. */
+const UNSEEN = /[\u0000-\u001f\u007f-\u009f\u00ad\u061c\u180e\u200b\u200e\u200f\u2028-\u202e\u2060-\u206f\ufeff\ufff9-\ufffb\u{e0000}-\u{e007f}]/gu;
+
+/** A text in which names of files and models may stand, with what is not seen or turns the direction of writing shown
+ * as an escape: "\u202e". All texts of the page pass through here. */
+export const visible = (text) => String(text).replace(UNSEEN,
+  (unseen) => `\\u${unseen.codePointAt(0).toString(16).padStart(4, '0')}`);
+
+export function setText(node, text) {
+  node.textContent = visible(text);
+}
+
 function filled(node, attributes, children) {
   for (const [name, value] of Object.entries(attributes))
     if (name.startsWith('on')) node.addEventListener(name.slice(2), value);
-    else if (value !== null && value !== false) node.setAttribute(name, value === true ? '' : value);
-  node.append(...children);
+    else if (value !== null && value !== false)
+      node.setAttribute(name, value === true ? '' : TEXTS.includes(name) ? visible(value) : value);
+  node.append(...children.map((child) => (child instanceof Node ? child : visible(child))));
   return node;
 }
 

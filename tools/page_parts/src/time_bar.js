@@ -1,6 +1,6 @@
 // Play, clip, poses, chart and slider.
 import { drawChart, valueAt } from './chart.js';
-import { byId, html } from './elements.js';
+import { byId, html, setText } from './elements.js';
 import { quantity } from './format.js';
 
 export class TimeBar {
@@ -66,13 +66,13 @@ export class TimeBar {
 
   update() {
     const { player } = this;
-    byId('play').textContent = player.isPlaying ? 'Pause' : 'Play';
+    setText(byId('play'), player.isPlaying ? 'Pause' : 'Play');
     this.poses.forEach((button, i) => button.setAttribute('aria-pressed', player.pose === i));
     this.seek.value = player.time;
     this.moveCursor(player.time);
     const value = this.series && player.pose === null
       ? `${quantity(valueAt(this.series, player.time), this.series.unit)} at ` : '';
     const ofClip = player.clip === null ? 'Rest' : `${value}${player.time.toFixed(2)} s`;
-    byId('clock').textContent = player.pose === null ? ofClip : player.poses[player.pose].name;
+    setText(byId('clock'), player.pose === null ? ofClip : player.poses[player.pose].name);
   }
 }

@@ -1,6 +1,6 @@
 // The controls of the heat map: what it shows, its scale, the worst vertices.
 import { niceTop } from './colours.js';
-import { byId, html } from '../../page_parts/src/elements.js';
+import { byId, html, setText } from '../../page_parts/src/elements.js';
 import { vertexInMesh } from '../../page_parts/src/decode.js';
 import { quantity } from '../../page_parts/src/format.js';
 import { scaleOf, shownArray, shownBone, topsOf, weighingBones, worstVertices } from './heat.js';
@@ -57,13 +57,13 @@ export class HeatPanel {
     if (!this.shown) return this.onShown(null);
     const top = niceTop(this.tops.most * 10 ** (3 * (Number(this.top.value) - 1)));
     const scale = scaleOf(this.shown, top, this.log.checked);
-    byId('top-value').textContent = quantity(top, this.shown.unit);
+    setText(byId('top-value'), quantity(top, this.shown.unit));
     drawLegend(byId('legend'), this.shown, scale);
     return this.onShown(this.shown, scale);
   }
 
   listWorst() {
-    byId('worst-title').textContent = this.worst.length ? 'Worst vertices' : '';
+    setText(byId('worst-title'), this.worst.length ? 'Worst vertices' : '');
     this.buttons = this.worst.map((vertex, i) => {
       const { number } = vertexInMesh(this.data.target, vertex);
       return html('button', { class: 'place', onclick: () => this.goTo(i) },

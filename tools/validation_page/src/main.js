@@ -1,7 +1,7 @@
 // The page of `sunder validate --html`: joins the data, the stage and the panels.
 import { radiusOf } from '../../page_parts/src/bounds.js';
 import { bytesOf, decode } from '../../page_parts/src/decode.js';
-import { byId, html, severitySign } from '../../page_parts/src/elements.js';
+import { byId, html, setText, severitySign, visible } from '../../page_parts/src/elements.js';
 import { listFindings, verdict } from './findings_list.js';
 import { quantity } from '../../page_parts/src/format.js';
 import { HeatPanel } from './heat_panel.js';
@@ -54,11 +54,11 @@ function goToPlace(finding, i) {
 
 function writeHeader() {
   const { worst, text } = verdict(data.findings);
-  byId('source-title').textContent = data.source.title;
-  byId('target-title').textContent = data.target.title;
+  setText(byId('source-title'), data.source.title);
+  setText(byId('target-title'), data.target.title);
   byId('verdict').append(...(worst ? [severitySign(worst)] : []), text);
   byId('verdict').className = worst ?? 'clean';
-  document.title = `${data.target.title}: ${text}`;
+  document.title = visible(`${data.target.title}: ${text}`);
 }
 
 function arrange(layout) {

@@ -1,5 +1,6 @@
 // The name of the bone under the pointer.
 import { NONE } from '../../page_parts/src/decode.js';
+import { setText } from '../../page_parts/src/elements.js';
 
 const REACH = 9;  // pixels
 
@@ -40,7 +41,7 @@ export function followBones(output, canvas, names, state, onBone) {
     output.hidden = bone === NONE;
     onBone(bone);
     if (bone === NONE) return;
-    output.textContent = names[bone];
+    setText(output, names[bone]);
     const right = place[0] + 16 + output.offsetWidth > canvas.clientWidth;
     const left = right ? Math.max(0, place[0] - output.offsetWidth - 12) : place[0] + 16;
     output.style.transform = `translate(${left}px, ${Math.max(0, place[1] - 36)}px)`;

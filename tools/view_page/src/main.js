@@ -2,7 +2,7 @@
 import { Color } from 'three';
 import { BoneLines } from '../../page_parts/src/bone_lines.js';
 import { bytesOf, decode, NONE } from '../../page_parts/src/decode.js';
-import { byId } from '../../page_parts/src/elements.js';
+import { byId, setText, visible } from '../../page_parts/src/elements.js';
 import { listenToKeys } from '../../page_parts/src/keys.js';
 import { Player } from '../../page_parts/src/player.js';
 import { posePositions } from '../../page_parts/src/skin.js';
@@ -58,8 +58,9 @@ class Page {
 
   makePanels() {
     const { data, player } = this;
-    byId('title').textContent = document.title =
-      data.target ? `${data.source.title} → ${data.target.title}` : data.source.title;
+    document.title = visible(
+      data.target ? `${data.source.title} → ${data.target.title}` : data.source.title);
+    setText(byId('title'), document.title);
     byId('which').hidden = byId('torn').hidden = !data.target;
     if (data.target) listTornFacts(byId('torn-facts'), data.target);
     byId('poses').setAttribute('aria-label', 'Poses without a clip');
@@ -68,8 +69,8 @@ class Page {
     this.history = new History(parseLog(data.operations), () => this.operationsChanged());
     const say = (text, hasFailed) => this.say(text, hasFailed);
     const name = `${data.source.title.replace(/\.[^.]*$/, '') || 'model'}_ops.json`;
-    byId('command').textContent =
-      `sunder tear ${shellWord(data.source.title)} --ops ${shellWord(name)} -o torn.glb`;
+    setText(byId('command'),
+      `sunder tear ${shellWord(data.source.title)} --ops ${shellWord(name)} -o torn.glb`);
     this.list = new OperationList(this.history, name,
       { onMessage: say, onChoose: (operation) => this.choose(operation) });
     this.settings = new Settings(byId('settings'), this.diagonal, () => this.placing?.update());
@@ -89,7 +90,7 @@ class Page {
   }
 
   say(text, hasFailed = false) {
-    byId('said').textContent = text;
+    setText(byId('said'), text);
     byId('said').classList.toggle('failed', hasFailed);
   }
 

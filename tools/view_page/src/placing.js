@@ -1,5 +1,5 @@
 // Clicks that become operations: which tool is chosen, and the points that it has.
-import { byId } from '../../page_parts/src/elements.js';
+import { byId, setText } from '../../page_parts/src/elements.js';
 import { makeBore, makeCut, makeTear } from './operations.js';
 
 const CLICK = 5;  // pixels; further is a drag
@@ -93,7 +93,7 @@ export class Placing {
 
   update() {
     const count = this.clicks.length;
-    byId('hint').textContent = HINTS[this.tool](count, this.settings.current);
+    setText(byId('hint'), HINTS[this.tool](count, this.settings.current));
     byId('pending').hidden = this.tool === 'look' || this.tool === 'drill';
     byId('finish').hidden = this.tool !== 'tear';
     byId('finish').disabled = count < 2;
