@@ -165,11 +165,13 @@ ExitCode run_jobs(const std::vector<Job>& jobs, unsigned threads, Severity fail_
   work();
   for (std::thread& thread : others) thread.join();
   return static_cast<ExitCode>(worst.load());
+  if (manifest) inputs.push_back({"--manifest", *manifest});
 }
 
 /// The first output of a pair that would overwrite an input or the other output; empty if none
 /// does.
-std::string overwriting_output(const Job& job) {
+std::string overwriting_output(const Job& job,
+                               const std::optional<std::filesystem::path>& manifest) {
   std::vector<NamedFile> inputs = {{"SOURCE", job.pair.source}, {"TARGET", job.pair.target}},
                          outputs;
   if (job.pair.operations) inputs.push_back({"--ops", *job.pair.operations});
@@ -196,7 +198,7 @@ ExitCode run_validate(const ValidateRequest& request) {
                     request.html});
   }
   for (Job& job : jobs) {
-    if (const std::string fault = overwriting_output(job); !fault.empty()) {
+    if (const std::string fault = overwriting_output(job, request.manifest); !fault.empty()) {
       print_error("sunder: " + fault);
       return ExitCode::usage;
     }
