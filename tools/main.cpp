@@ -1,4 +1,3 @@
-#include <cstdio>
 #include <exception>
 #include <new>
 #include <sstream>
@@ -11,6 +10,7 @@
 #endif
 
 #include "tools/command_line/command_line.h"
+#include "tools/messages/lines.h"
 #include "tools/messages/messages.h"
 
 namespace sunder::tools {
@@ -20,10 +20,9 @@ namespace {
 ExitCode refuse(const CLI::App& app, const CLI::ParseError& error) {
   std::ostringstream out, err;
   const int code = app.exit(error, out, err);
-  std::fputs(out.str().c_str(), stdout);
-  std::string text = err.str();
-  if (text.ends_with('\n')) text.pop_back();
-  if (!text.empty()) print_error(text);
+  print_text(out.str());
+  std::istringstream lines(err.str());
+  for (std::string line; std::getline(lines, line);) print_error(line);
   return code == 0 ? ExitCode::ok : ExitCode::usage;
 }
 

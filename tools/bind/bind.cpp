@@ -3,7 +3,6 @@
 #include <sunder/io/robot_file.h>
 #include <sunder/skinning/pose.h>
 
-#include <cstdio>
 #include <optional>
 #include <string>
 #include <utility>
@@ -167,7 +166,7 @@ ExitCode run_bind(const BindRequest& request) {
   if (!binding) return complain(blamed(request, binding.error()), binding.error(), ExitCode::usage);
   if (const ExitCode code = write_files(request, inputs, *binding); code != ExitCode::ok)
     return code;
-  std::fputs(bind_table(*binding).c_str(), stdout);
+  print(bind_table(*binding));
   const std::vector<std::string> warnings = bind_warnings(*binding);
   for (const std::string& warning : warnings) Messages(Verbosity::normal).warn(warning);
   const bool has_findings =

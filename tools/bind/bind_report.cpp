@@ -52,24 +52,27 @@ Json figures(const HeatBinding& binding) {
           {"bones_without_weight", binding.bones_without_weight}};
 }
 
-std::string table(const MappedBinding& binding) {
-  std::string text = printed("by a map: %u bones with weight mapped, %zu taken by an ancestor\n",
-                             binding.mapped_bones, binding.taken_by_ancestor.size());
+Lines table(const MappedBinding& binding) {
+  Lines lines;
+  lines.add(printed("by a map: %u bones with weight mapped, %zu taken by an ancestor",
+                    binding.mapped_bones, binding.taken_by_ancestor.size()));
   for (const BonePair& pair : binding.taken_by_ancestor)
-    text += "  '" + pair.model + "' goes to '" + pair.rig + "'\n";
+    lines.add("  '" + pair.model + "' goes to '" + pair.rig + "'");
   if (binding.mapped_bones > 0)
-    text += printed("  farthest joints: '%s' and '%s', %.4g m apart\n",
-                    binding.farthest_pair.model.c_str(), binding.farthest_pair.rig.c_str(),
-                    binding.farthest_distance);
-  return text;
+    lines.add(printed("  farthest joints: '%s' and '%s', %.4g m apart",
+                      binding.farthest_pair.model.c_str(), binding.farthest_pair.rig.c_str(),
+                      binding.farthest_distance));
+  return lines;
 }
 
-std::string table(const HeatBinding& binding) {
-  return printed(
+Lines table(const HeatBinding& binding) {
+  Lines lines;
+  lines.add(printed(
       "by automatic weights: %u points, %.1f %% see their nearest bone; parts: %u, of which %u see "
-      "none; points without a triangle: %u\n",
+      "none; points without a triangle: %u",
       binding.points, 100 * share(binding.heated_points, binding.points), binding.components,
-      binding.components_without_sight, binding.lone_points);
+      binding.components_without_sight, binding.lone_points));
+  return lines;
 }
 
 std::vector<std::string> warnings(const MappedBinding& binding) {
@@ -118,10 +121,11 @@ Json bind_json(const BindRequest& request, const AnyBinding& binding, const Bind
   return json;
 }
 
-std::string bind_table(const AnyBinding& binding) {
-  return std::visit([](const auto& any) { return table(any); }, binding) +
-         printed("  farthest vertex from its place in the bind pose: %.3g m\n",
-                 common(binding).largest_shape_error);
+Lines bind_table(const AnyBinding& binding) {
+  Lines lines = std::visit([](const auto& any) { return table(any); }, binding);
+  lines.add(printed("  farthest vertex from its place in the bind pose: %.3g m",
+                    common(binding).largest_shape_error));
+  return lines;
 }
 
 std::vector<std::string> bind_warnings(const AnyBinding& binding) {

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "tools/messages/json.h"
+#include "tools/messages/lines.h"
 #include "tools/verbs.h"
 
 namespace sunder::tools {
@@ -20,7 +21,7 @@ using AnyBinding = std::variant<MappedBinding, HeatBinding>;
                              const BindingPlace& place);
 
 /// Lines for people: counts and distances.
-[[nodiscard]] std::string bind_table(const AnyBinding& binding);
+[[nodiscard]] Lines bind_table(const AnyBinding& binding);
 
 /// The warnings of a binding, one line each; empty if there is nothing.
 [[nodiscard]] std::vector<std::string> bind_warnings(const AnyBinding& binding);

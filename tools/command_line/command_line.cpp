@@ -1,12 +1,12 @@
 #include "tools/command_line/command_line.h"
 
-#include <cstdio>
 #include <string>
 
 #include "tools/command_line/completions.h"
 #include "tools/command_line/listed_options.h"
 #include "tools/command_line/manual.h"
 #include "tools/command_line/options.h"
+#include "tools/messages/lines.h"
 
 namespace sunder::tools {
 namespace {
@@ -24,7 +24,7 @@ constexpr const char* kExitCodes =
     "Data goes to stdout, messages go to stderr.";
 
 ExitCode print(const std::string& text) {
-  std::fputs(text.c_str(), stdout);
+  print_text(text);
   return ExitCode::ok;
 }
 

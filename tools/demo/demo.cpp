@@ -2,7 +2,6 @@
 #include <sunder/skinning/pose.h>
 #include <sunder/tear/topology.h>
 
-#include <cstdio>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -145,8 +144,8 @@ ExitCode run_demo(const DemoRequest& request) {
   std::error_code error;
   std::filesystem::create_directories(request.folder, error);
   if (error) {
-    std::fprintf(stderr, "sunder: %s: cannot create this folder: %s\n", request.folder.c_str(),
-                 error.message().c_str());
+    print_error("sunder: " + request.folder.string() +
+                ": cannot create this folder: " + error.message());
     return ExitCode::unreadable_input;
   }
 
@@ -156,7 +155,7 @@ ExitCode run_demo(const DemoRequest& request) {
   if (const ExitCode code = write_results(request, place, *model, *demo); code != ExitCode::ok)
     return code;
   if (demo->outcome.has_missed) {
-    std::fprintf(stderr, "sunder: %s: the stroke met no surface\n", place.c_str());
+    print_error("sunder: " + place + ": the stroke met no surface");
     return ExitCode::findings;
   }
 

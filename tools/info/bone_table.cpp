@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "tools/messages/visible.h"
+
 namespace sunder::tools {
 namespace {
 
@@ -48,13 +50,14 @@ constexpr std::array<const char*, 10> kHeads = {
     "bone", "vertices", "x", "y", "z", "length", "leads to", "x of its surface", "y", "z"};
 
 Row row_of(const Json& bone, const Json& bones, std::size_t depth, int decimals) {
-  Row row = {indentation(depth) + bone["name"].get<std::string>(),
+  Row row = {indentation(depth) + visible(bone["name"].get<std::string>()),
              std::to_string(bone["vertices"].get<std::size_t>())};
   for (const Json& value : bone["joint"]) row.push_back(number(value, decimals));
   row.push_back(number(bone["length"], decimals));
-  row.push_back(bone["leads_to"].is_null()
-                    ? "-"
-                    : bones[bone["leads_to"].get<std::size_t>()]["name"].get<std::string>());
+  row.push_back(
+      bone["leads_to"].is_null()
+          ? "-"
+          : visible(bones[bone["leads_to"].get<std::size_t>()]["name"].get<std::string>()));
   for (std::size_t i = 0; i < 3; ++i)
     row.push_back(bone["bounds"].is_null() ? "-"
                                            : number(bone["bounds"]["min"][i], decimals) + " .. " +
@@ -62,11 +65,10 @@ Row row_of(const Json& bone, const Json& bones, std::size_t depth, int decimals)
   return row;
 }
 
-std::string aligned(const std::vector<Row>& rows) {
+void add_aligned(const std::vector<Row>& rows, Lines& lines) {
   std::vector<std::size_t> widths(kHeads.size(), 0);
   for (const Row& row : rows)
     for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], width_of(row[i]));
-  std::string text;
   for (const Row& row : rows) {
     std::string line;
     for (std::size_t i = 0; i < row.size(); ++i) {
@@ -76,9 +78,8 @@ std::string aligned(const std::vector<Row>& rows) {
       line += "  ";
     }
     line.erase(line.find_last_not_of(' ') + 1);
-    text += line + "\n";
+    lines.add(line);
   }
-  return text;
 }
 
 }  // namespace
@@ -104,7 +105,7 @@ Json bone_tree_json(const Skeleton& skeleton, const std::vector<BoneExtent>& ext
   return bones;
 }
 
-std::string bone_tree_text(const Json& info) {
+Lines bone_tree_text(const Json& info) {
   const Json& bones = info["bone_tree"];
   const int decimals = decimals_for(info["bounds"]);
   std::vector<std::vector<std::size_t>> children(bones.size());
@@ -126,8 +127,11 @@ std::string bone_tree_text(const Json& info) {
       open.push_back(child);
     }
   }
-  return "bones in pose " + info["pose"].get<std::string>() +
-         ": joints and surfaces in model space, metres\n" + aligned(rows);
+  Lines lines;
+  lines.add("bones in pose " + info["pose"].get<std::string>() +
+            ": joints and surfaces in model space, metres");
+  add_aligned(rows, lines);
+  return lines;
 }
 
 }  // namespace sunder::tools

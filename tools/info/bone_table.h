@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "tools/messages/json.h"
+#include "tools/messages/lines.h"
 #include "tools/model/bone_extents.h"
 
 namespace sunder::tools {
@@ -12,6 +13,6 @@ namespace sunder::tools {
 [[nodiscard]] Json bone_tree_json(const Skeleton& skeleton, const std::vector<BoneExtent>& extents);
 
 /// The member "bone_tree" of an info as a table: parents before children, which are indented.
-[[nodiscard]] std::string bone_tree_text(const Json& info);
+[[nodiscard]] Lines bone_tree_text(const Json& info);
 
 }  // namespace sunder::tools

@@ -4,7 +4,6 @@
 #include <sunder/tear/topology.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <map>
 #include <string>
 #include <utility>
@@ -12,8 +11,10 @@
 
 #include "tools/info/bone_table.h"
 #include "tools/info/robot_info.h"
+#include "tools/messages/lines.h"
 #include "tools/messages/messages.h"
 #include "tools/messages/overwriting.h"
+#include "tools/messages/printed.h"
 #include "tools/messages/text_file.h"
 #include "tools/model/bone_extents.h"
 #include "tools/model/model_check.h"
@@ -130,80 +131,84 @@ std::string text(const Json& value) { return value.get<std::string>(); }
 double number(const Json& value) { return value.get<double>(); }
 std::size_t count(const Json& value) { return value.get<std::size_t>(); }
 
-void print_meshes(const Json& meshes) {
+void add_meshes(const Json& meshes, Lines& lines) {
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     const Json& mesh = meshes[i];
-    std::printf(
+    lines.add(printed(
         "mesh %zu     '%s': %zu vertices, %zu points, %zu triangles, %zu submeshes, skin %zu, up "
-        "to %zu influences\n",
+        "to %zu influences",
         i, text(mesh["name"]).c_str(), count(mesh["vertices"]), count(mesh["points"]),
         count(mesh["triangles"]), mesh["submeshes"].size(), count(mesh["skin"]),
-        count(mesh["influences_max"]));
-    std::printf("           %s, %s, %zu UV sets, %zu colour sets, %zu morph targets\n",
-                mesh["normals"].get<bool>() ? "normals" : "no normals",
-                mesh["tangents"].get<bool>() ? "tangents" : "no tangents", count(mesh["uv_sets"]),
-                count(mesh["color_sets"]), mesh["morph_targets"].size());
+        count(mesh["influences_max"])));
+    lines.add(printed("           %s, %s, %zu UV sets, %zu colour sets, %zu morph targets",
+                      mesh["normals"].get<bool>() ? "normals" : "no normals",
+                      mesh["tangents"].get<bool>() ? "tangents" : "no tangents",
+                      count(mesh["uv_sets"]), count(mesh["color_sets"]),
+                      mesh["morph_targets"].size()));
     std::string names;
     for (const Json& target : mesh["morph_targets"])
       names += (names.empty() ? "'" : ", '") + text(target) + "'";
-    if (!names.empty()) std::printf("  morphs   %s\n", names.c_str());
+    if (!names.empty()) lines.add(printed("  morphs   %s", names.c_str()));
   }
 }
 
-void print_materials_and_clips(const Json& info) {
+void add_materials_and_clips(const Json& info, Lines& lines) {
   for (std::size_t i = 0; i < info["materials"].size(); ++i)
-    std::printf("material %zu '%s': %zu triangles\n", i, text(info["materials"][i]["name"]).c_str(),
-                count(info["materials"][i]["triangles"]));
+    lines.add(printed("material %zu '%s': %zu triangles", i,
+                      text(info["materials"][i]["name"]).c_str(),
+                      count(info["materials"][i]["triangles"])));
   for (std::size_t i = 0; i < info["clips"].size(); ++i)
-    std::printf("clip %zu     '%s': %.4g s, %zu channels\n", i,
-                text(info["clips"][i]["name"]).c_str(), number(info["clips"][i]["duration"]),
-                count(info["clips"][i]["channels"]));
+    lines.add(printed("clip %zu     '%s': %.4g s, %zu channels", i,
+                      text(info["clips"][i]["name"]).c_str(), number(info["clips"][i]["duration"]),
+                      count(info["clips"][i]["channels"])));
 }
 
-/// Prints the same as text.
-void print_info(const Json& info) {
-  std::printf("%s: %s\n", text(info["model"]).c_str(), text(info["format"]).c_str());
-  std::printf("space      %s\n", text(info["space"]).c_str());
+/// The same as text.
+Lines info_text(const Json& info) {
+  Lines lines;
+  lines.add(printed("%s: %s", text(info["model"]).c_str(), text(info["format"]).c_str()));
+  lines.add(printed("space      %s", text(info["space"]).c_str()));
   const Json &least = info["bounds"]["min"], &greatest = info["bounds"]["max"];
-  std::printf("bounds     (%.5g, %.5g, %.5g) to (%.5g, %.5g, %.5g), in pose %s\n", number(least[0]),
-              number(least[1]), number(least[2]), number(greatest[0]), number(greatest[1]),
-              number(greatest[2]), text(info["pose"]).c_str());
-  std::printf(
-      "bones      %zu%s\n", info["bones"].size(),
-      info.contains("bone_tree") ? "" : "; --bones lists them with their places and surfaces");
+  lines.add(printed("bounds     (%.5g, %.5g, %.5g) to (%.5g, %.5g, %.5g), in pose %s",
+                    number(least[0]), number(least[1]), number(least[2]), number(greatest[0]),
+                    number(greatest[1]), number(greatest[2]), text(info["pose"]).c_str()));
+  lines.add(printed(
+      "bones      %zu%s", info["bones"].size(),
+      info.contains("bone_tree") ? "" : "; --bones lists them with their places and surfaces"));
   for (std::size_t i = 0; i < info["skins"].size(); ++i)
-    std::printf("skin %zu     '%s': %zu bones\n", i, text(info["skins"][i]["name"]).c_str(),
-                count(info["skins"][i]["bones"]));
-  print_meshes(info["meshes"]);
-  print_materials_and_clips(info);
-  std::printf("weights    sums from %.9g to %.9g\n", number(info["weight_sum_min"]),
-              number(info["weight_sum_max"]));
+    lines.add(printed("skin %zu     '%s': %zu bones", i, text(info["skins"][i]["name"]).c_str(),
+                      count(info["skins"][i]["bones"])));
+  add_meshes(info["meshes"], lines);
+  add_materials_and_clips(info, lines);
+  lines.add(printed("weights    sums from %.9g to %.9g", number(info["weight_sum_min"]),
+                    number(info["weight_sum_max"])));
   const Json& topology = info["topology"];
-  std::printf("topology   %zu points, %zu edges, %zu triangles, %zu components\n",
-              count(topology["points"]), count(topology["edges"]), count(topology["triangles"]),
-              count(topology["components"]));
-  std::printf(
-      "           %zu boundary loops (%zu edges), %zu non-manifold edges, %zu degenerate "
-      "triangles\n",
-      count(topology["boundary_loops"]), count(topology["boundary_edges"]),
-      count(topology["non_manifold_edges"]), count(topology["degenerate_triangles"]));
+  lines.add(printed("topology   %zu points, %zu edges, %zu triangles, %zu components",
+                    count(topology["points"]), count(topology["edges"]),
+                    count(topology["triangles"]), count(topology["components"])));
+  lines.add(
+      printed("           %zu boundary loops (%zu edges), %zu non-manifold edges, %zu degenerate "
+              "triangles",
+              count(topology["boundary_loops"]), count(topology["boundary_edges"]),
+              count(topology["non_manifold_edges"]), count(topology["degenerate_triangles"])));
   for (const Json& note : info["notes"])
-    std::printf("%-10s %s: %s (%zu)\n", text(note["kind"]).c_str(), text(note["place"]).c_str(),
-                text(note["text"]).c_str(), count(note["count"]));
-  if (info.contains("bone_tree")) std::fputs(bone_tree_text(info).c_str(), stdout);
+    lines.add(printed("%-10s %s: %s (%zu)", text(note["kind"]).c_str(), text(note["place"]).c_str(),
+                      text(note["text"]).c_str(), count(note["count"])));
+  if (info.contains("bone_tree")) lines.add(bone_tree_text(info));
+  return lines;
 }
 
 /// Prints or writes what was asked for.
-ExitCode put_out(const InfoRequest& request, const Json& info, const std::string& robot) {
+ExitCode put_out(const InfoRequest& request, const Json& info, const Lines& robot) {
   if (request.report)
     if (const Status status = write_text(*request.report, dump(info)); !status)
       return complain(request.report->string(), status, ExitCode::unreadable_input);
   if (request.as_json) {
-    std::fputs(dump(info).c_str(), stdout);
+    print(info);
     return ExitCode::ok;
   }
-  if (info.contains("bounds")) print_info(info);
-  std::fputs(robot.c_str(), stdout);
+  if (info.contains("bounds")) print(info_text(info));
+  print(robot);
   return ExitCode::ok;
 }
 
@@ -241,7 +246,8 @@ ExitCode describe_robot(const InfoRequest& request) {
       return code;
   info["robot"] = robot_json(loaded->robot);
   info["findings"] = findings_json(findings);
-  const std::string text = robot_text(loaded->robot) + findings_text(findings);
+  Lines text = robot_text(loaded->robot);
+  text.add(findings_text(findings));
   if (const ExitCode code = put_out(request, info, text); code != ExitCode::ok) return code;
   const bool has_warnings = std::any_of(
       findings.begin(), findings.end(),

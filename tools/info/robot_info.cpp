@@ -106,32 +106,34 @@ Json findings_json(std::span<const RobotFinding> findings) {
   return json;
 }
 
-std::string robot_text(const Robot& robot) {
-  std::string text =
-      printed("robot      '%s': %zu links, %zu joints, %zu values\n", robot.name.c_str(),
-              robot.links.size(), robot.joints.size(), robot.values.size());
+Lines robot_text(const Robot& robot) {
+  Lines lines;
+  lines.add(printed("robot      '%s': %zu links, %zu joints, %zu values", robot.name.c_str(),
+                    robot.links.size(), robot.joints.size(), robot.values.size()));
   std::vector<std::size_t> depth;
   for (std::size_t i = 0; i < robot.links.size(); ++i) {
     const RobotLink& link = robot.links[i];
     depth.push_back(link.parent == kNone ? 0 : depth[link.parent] + 1);
-    text += "  " + std::string(2 * std::min(depth[i], kMostIndents), ' ') + "'" + link.name + "'";
+    std::string line =
+        "  " + std::string(2 * std::min(depth[i], kMostIndents), ' ') + "'" + link.name + "'";
     if (i > 0)
-      text += "  by '" + robot.joints[i - 1].name + "', " + motion_text(robot, robot.joints[i - 1]);
-    text += '\n';
+      line += "  by '" + robot.joints[i - 1].name + "', " + motion_text(robot, robot.joints[i - 1]);
+    lines.add(line);
   }
-  return text;
+  return lines;
 }
 
-std::string findings_text(std::span<const RobotFinding> findings) {
-  std::string text;
+Lines findings_text(std::span<const RobotFinding> findings) {
+  Lines lines;
   for (const RobotFinding& finding : findings) {
-    text += printed("%-11s %s", std::string(robot_severity_name(finding.severity)).c_str(),
-                    std::string(finding.code).c_str());
-    if (finding.line > 0) text += printed(", line %u", finding.line);
-    if (!finding.place.empty()) text += ", " + finding.place;
-    text += ": " + with_option_names(finding.text) + "\n";
+    std::string line =
+        printed("%-11s %s", std::string(robot_severity_name(finding.severity)).c_str(),
+                std::string(finding.code).c_str());
+    if (finding.line > 0) line += printed(", line %u", finding.line);
+    if (!finding.place.empty()) line += ", " + finding.place;
+    lines.add(line + ": " + with_option_names(finding.text));
   }
-  return text;
+  return lines;
 }
 
 }  // namespace sunder::tools

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "tools/messages/json.h"
+#include "tools/messages/lines.h"
 
 namespace sunder::tools {
 
@@ -14,8 +15,8 @@ namespace sunder::tools {
 [[nodiscard]] Json findings_json(std::span<const RobotFinding> findings);
 
 /// The tree of links with their joints and limits, one link per line.
-[[nodiscard]] std::string robot_text(const Robot& robot);
+[[nodiscard]] Lines robot_text(const Robot& robot);
 /// One finding per line: severity, code, line, place, text.
-[[nodiscard]] std::string findings_text(std::span<const RobotFinding> findings);
+[[nodiscard]] Lines findings_text(std::span<const RobotFinding> findings);
 
 }  // namespace sunder::tools

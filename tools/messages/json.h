@@ -7,6 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tools/messages/visible.h"
+
 namespace sunder::tools {
 
 using Json = nlohmann::ordered_json;
@@ -26,14 +28,14 @@ template <class Vector>
 }
 
 /// UTF-8 text, indented by two spaces, with an end of line. Bytes of names that are not UTF-8 are
-/// replaced.
+/// replaced, and controls beyond ASCII are escaped, so that a terminal can show it.
 [[nodiscard]] inline std::string dump(const Json& json) {
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+  return visible_json(json.dump(2, ' ', false, Json::error_handler_t::replace)) + '\n';
 }
 
 /// The same without white space and end of line.
 [[nodiscard]] inline std::string dump_line(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return visible_json(json.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
 }  // namespace sunder::tools

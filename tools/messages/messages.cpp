@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "tools/messages/progress_bar.h"
+#include "tools/messages/visible.h"
 
 namespace sunder::tools {
 namespace {
@@ -15,9 +16,9 @@ constexpr const char kYellow[] = "\x1b[33m";
 void print(const std::string& text, const char* colour) {
   erase_progress_bar();
   if (colour != nullptr && errors_are_in_colour())
-    std::fprintf(stderr, "%s%s\x1b[0m\n", colour, text.c_str());
+    std::fprintf(stderr, "%s%s\x1b[0m\n", colour, visible_line(text).c_str());
   else
-    std::fprintf(stderr, "%s\n", text.c_str());
+    std::fprintf(stderr, "%s\n", visible_line(text).c_str());
 }
 
 }  // namespace

@@ -14,10 +14,10 @@ enum class Verbosity {
 /// Whether stderr shows colours: a terminal, and NO_COLOR is not set (https://no-color.org).
 [[nodiscard]] bool errors_are_in_colour();
 
-/// Prints an error on stderr, in red where there are colours.
+/// Prints an error on stderr, in red where there are colours: one line, by visible_line().
 void print_error(const std::string& text);
 
-/// Prints lines on stderr. Each begins with "sunder: " and ends a line.
+/// Prints lines on stderr, by visible_line(). Each begins with "sunder: ".
 class Messages {
  public:
   explicit Messages(Verbosity verbosity) : verbosity_(verbosity) {}

@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <unistd.h>
 
+#include "tools/messages/visible.h"
+
 namespace sunder::tools {
 namespace {
 
@@ -31,7 +33,7 @@ void ProgressBar::begin_step(std::size_t step, const std::string& what) {
   is_on_the_line = true;
   const std::size_t filled = std::min(kWidth, kWidth * step / step_count_);
   std::fprintf(stderr, "\r\x1b[K[%s%s] %zu/%zu %s", std::string(filled, '#').c_str(),
-               std::string(kWidth - filled, '.').c_str(), step, step_count_, what.c_str());
+               std::string(kWidth - filled, '.').c_str(), step, step_count_, visible(what).c_str());
   std::fflush(stderr);
 }
 

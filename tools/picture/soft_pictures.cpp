@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <string>
 
+#include "tools/messages/lines.h"
+#include "tools/messages/printed.h"
 #include "tools/picture/soft_scene.h"
 
 namespace sunder::tools {
@@ -26,8 +27,8 @@ std::vector<Vec2d> along_trunk(double from, double to) {
 
 void draw_decomposition(const std::string& folder) {
   const SoftScene scene({SoftMaterial()}, kRange);
-  std::printf("decomposition: %u particles of %u points\n", scene.particles().particle_count(),
-              scene.particles().report().points);
+  print_text(printed("decomposition: %u particles of %u points\n",
+                     scene.particles().particle_count(), scene.particles().report().points));
   scene.draw_particles(folder + "/particles_decomposition.png");
 }
 
@@ -43,10 +44,10 @@ void draw_pull(const std::string& folder, bool is_torn) {
   const Vec3d at = scene.place(held);
   if (!scene.body().hold_point(held, at + Vec3d(0.05, 0, 0.11))) std::exit(1);
   const int steps = scene.step_until_still();
-  std::printf("%s: %d steps; the held point moved by %.4f m, the other lip by %.4f m\n",
-              is_torn ? "pull_after" : "pull_before", steps,
-              scene.body().point_displacement(held).norm(),
-              scene.body().point_displacement(other).norm());
+  print_text(printed("%s: %d steps; the held point moved by %.4f m, the other lip by %.4f m\n",
+                     is_torn ? "pull_after" : "pull_before", steps,
+                     scene.body().point_displacement(held).norm(),
+                     scene.body().point_displacement(other).norm()));
   scene.draw(folder + (is_torn ? "/particles_pull_after.png" : "/particles_pull_before.png"),
              look_from(-8, 24), at, 0.36);
 }
@@ -56,14 +57,14 @@ void draw_gap(const std::string& folder) {
   scene.tear(along_trunk(1.58, 1.02));
   if (!scene.body().set_tension({1.2, {}})) std::exit(1);
   const int steps = scene.step_until_still();
-  std::printf("gap: %d steps; %.4f of the diagonal wide\n", steps,
-              scene.widest_gap() / scene.diagonal());
+  print_text(printed("gap: %d steps; %.4f of the diagonal wide\n", steps,
+                     scene.widest_gap() / scene.diagonal()));
   const Vec3d at = scene.place(scene.changes[0].lips[scene.changes[0].lips.size() / 2].left);
   scene.draw(folder + "/particles_gap.png", look_from(12, 10), at, 0.42);
   if (!scene.body().set_tension({})) std::exit(1);
   const int back = scene.step_until_still();
-  std::printf("gap: without tension, after %d steps: %.2e of the diagonal\n", back,
-              scene.widest_gap() / scene.diagonal());
+  print_text(printed("gap: without tension, after %d steps: %.2e of the diagonal\n", back,
+                     scene.widest_gap() / scene.diagonal()));
 }
 
 void draw_running(const std::string& folder) {
@@ -103,21 +104,21 @@ void draw_running(const std::string& folder) {
     scene.step();
     const auto report = scene.tear_overstretched();
     if (!report) {
-      std::printf("running: step %d: %s\n", i, report.error().text().data());
+      print_text(printed("running: step %d: %s\n", i, report.error().text().data()));
       continue;
     }
     if (report->has_torn) {
       ++tears, length += report->tear.length_posed;
-      std::printf(
+      print_text(printed(
           "running: step %d, stretch %.2f, %s at (%.3f %.3f %.3f) towards (%.2f %.2f %.2f), %.4f "
           "m\n",
           i, report->greatest_stretch, report->is_from_tip ? "continued" : "began",
           report->place.x() - at.x(), report->place.y() - at.y(), report->place.z() - at.z(),
           report->direction.x(), report->direction.y(), report->direction.z(),
-          report->tear.length_posed);
+          report->tear.length_posed));
     }
     if (i == kMoments[0] || i == kMoments[1] || i == kMoments[2]) {
-      std::printf("running_%d: step %d: %d tears, %.3f m\n", picture + 1, i, tears, length);
+      print_text(printed("running_%d: step %d: %d tears, %.3f m\n", picture + 1, i, tears, length));
       scene.draw(folder + "/particles_running_" + std::to_string(++picture) + ".png",
                  look_from(8, 8), at, 0.3);
     }

@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <numbers>
 #include <utility>
 
 #include "tools/demo/demo_rig.h"
+#include "tools/messages/messages.h"
 #include "tools/picture/model_looks.h"
 #include "tools/picture/open_lips.h"
 #include "tools/picture/torn_scene.h"
@@ -27,7 +27,7 @@ constexpr double kThickness = 0.006;  ///< Thickness of the flesh, as a fraction
 
 void check(const Status& status) {
   if (status) return;
-  std::fprintf(stderr, "soft_pictures: %s\n", status.text().data());
+  print_error("soft_pictures: " + std::string(status.text()));
   std::exit(1);
 }
 

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
@@ -157,11 +156,10 @@ ExitCode finish(TearRun& run, Clock::time_point begin) {
   }
   if (run.certified) run.messages.say(certificate_line(*run.certified, *request.maximum_error));
   run.messages.detail(times_line(run.times, seconds_since(begin)));
-  erase_progress_bar();
   if (reports_to_stdout(request))
-    std::fputs(report.c_str(), stdout);
+    print_text(report);
   else if (!request.report && !run.messages.is_quiet())
-    std::fputs(tear_summary(run).c_str(), stdout);
+    print(tear_summary(run));
   return run.has_findings ? ExitCode::findings : ExitCode::ok;
 }
 

@@ -21,7 +21,7 @@ std::string operations_line(const TearRun& run) {
   if (totals.missed > 0) line += printed(", %zu missed", totals.missed);
   if (totals.blocked > 0)
     line += printed(", %llu places blocked", static_cast<unsigned long long>(totals.blocked));
-  return line + '\n';
+  return line;
 }
 
 std::string surface_line(const TearRun& run) {
@@ -29,7 +29,7 @@ std::string surface_line(const TearRun& run) {
       vertex_count(run.model.character()) - vertex_count(run.model.source());
   return printed(
       "surface     %llu faces crossed, %llu vertices added, %zu pieces; %u components, "
-      "%u boundary loops\n",
+      "%u boundary loops",
       static_cast<unsigned long long>(run.totals.faces_crossed),
       static_cast<unsigned long long>(added), run.totals.pieces, run.result.components,
       run.result.boundary_loops);
@@ -40,11 +40,11 @@ std::string weights_line(const TearRun& run) {
   std::string line = std::string("weights     ") + weight_policy_name(run.weighing.options.policy);
   if (run.weighing.refit) line += " over " + refit_over_text(*run.weighing.refit);
   if (run.certified)
-    return line + printed("; written within %g m of the unpruned skin\n",
-                          run.request.maximum_error->metres);
+    return line +
+           printed("; written within %g m of the unpruned skin", run.request.maximum_error->metres);
   const PruningLoss& loss = run.pruning;
   // Meshes that nothing tore are copied, with the weights and formats of their file.
-  if (loss.most == 0) return "weights     those of the model; no mesh changed\n";
+  if (loss.most == 0) return "weights     those of the model; no mesh changed";
   line += printed("; written with at most %u influences as %s", loss.most,
                   weight_format_name(save.weights));
   if (loss.vertices_pruned > 0)
@@ -52,7 +52,7 @@ std::string weights_line(const TearRun& run) {
         ": %llu vertices lost some, at most %.2g %% of their weight, and move by at most %.2g m",
         static_cast<unsigned long long>(loss.vertices_pruned), 100 * loss.dropped_mass_max,
         loss.pruning_error_max);
-  return line + '\n';
+  return line;
 }
 
 std::string file_text(const std::filesystem::path& file) {
@@ -66,19 +66,24 @@ std::string file_text(const std::filesystem::path& file) {
 
 std::string files_line(const TearRun& run) {
   const TearRequest& request = run.request;
-  if (request.dry_run || !request.output) return "written     nothing: a dry run\n";
+  if (request.dry_run || !request.output) return "written     nothing: a dry run";
   std::string line = "written     " + file_text(*request.output);
   if (request.report && !reports_to_stdout(request)) line += ", " + request.report->string();
   if (request.log) line += ", " + request.log->string();
   for (const std::string& piece : run.piece_files) line += ", " + file_text(piece);
   if (run.has_picture) line += ", " + request.picture->string();
-  return line + '\n';
+  return line;
 }
 
 }  // namespace
 
-std::string tear_summary(const TearRun& run) {
-  return operations_line(run) + surface_line(run) + weights_line(run) + files_line(run);
+Lines tear_summary(const TearRun& run) {
+  Lines lines;
+  lines.add(operations_line(run));
+  lines.add(surface_line(run));
+  lines.add(weights_line(run));
+  lines.add(files_line(run));
+  return lines;
 }
 
 std::string times_line(const RunTimes& times, double seconds_in_all) {

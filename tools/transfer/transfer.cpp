@@ -2,7 +2,6 @@
 #include <sunder/validation/transfer.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -10,6 +9,7 @@
 #include <utility>
 
 #include "tools/messages/json_file.h"
+#include "tools/messages/lines.h"
 #include "tools/messages/messages.h"
 #include "tools/messages/overwriting.h"
 #include "tools/messages/text_file.h"
@@ -156,8 +156,9 @@ ExitCode run_transfer(const TransferRequest& request) {
   }
   if (const ExitCode code = write_files(request, *target, *result, certified); code != ExitCode::ok)
     return code;
-  std::fputs(transfer_table(request, *result).c_str(), stdout);
-  if (certified) std::puts(certificate_line(*certified, *request.maximum_error).c_str());
+  Lines lines = transfer_table(request, *result);
+  if (certified) lines.add(certificate_line(*certified, *request.maximum_error));
+  print(lines);
   const bool has_findings = has_losses(source->report) || has_losses(target->report) ||
                             std::ranges::any_of(result->findings, [](const Finding& finding) {
                               return finding.severity != Severity::note;

@@ -11,10 +11,10 @@ const char* method_name(TransferMethod method) {
   return method == TransferMethod::inpainting ? "inpainting" : "closest";
 }
 
-void say_count(std::string& text, const char* what, std::uint32_t count, std::uint32_t of,
+void add_count(Lines& lines, const char* what, std::uint32_t count, std::uint32_t of,
                const char* how) {
-  text +=
-      printed("  %-12s %9u  %5.1f %%  %s\n", what, count, of == 0 ? 0.0 : 100.0 * count / of, how);
+  lines.add(
+      printed("  %-12s %9u  %5.1f %%  %s", what, count, of == 0 ? 0.0 : 100.0 * count / of, how));
 }
 
 }  // namespace
@@ -73,31 +73,29 @@ Json transfer_json(const TransferRequest& request, const TransferResult& result)
           {"findings", std::move(findings)}};
 }
 
-std::string transfer_table(const TransferRequest& request, const TransferResult& result) {
+Lines transfer_table(const TransferRequest& request, const TransferResult& result) {
   const TransferOptions& options = request.options;
-  std::string text;
-  text += printed("%s, matches within %g m (%g of the diagonal) and %.3g degrees\n",
-                  method_name(options.method), result.largest_distance, options.distance,
-                  options.angle * 57.295779513082323);
-  text += printed("  %-12s %9u\n", "vertices", result.vertices);
-  say_count(text, "coincident", result.coincident, result.vertices, "on a vertex of the source");
-  say_count(text, "matched", result.matched, result.vertices, "interpolated on its surface");
-  say_count(text, "inpainted", result.inpainted, result.vertices, "continued from the matched");
-  say_count(text, "nearest", result.nearest, result.vertices, "closest place without limits");
-  say_count(text, "locked", result.locked, result.vertices, "kept");
-  text += printed("  refused matches: %u too far, %u turned away; parts: %u, without match %u\n",
-                  result.too_far, result.turned_away, result.parts, result.parts_without_match);
+  Lines lines;
+  lines.add(printed("%s, matches within %g m (%g of the diagonal) and %.3g degrees",
+                    method_name(options.method), result.largest_distance, options.distance,
+                    options.angle * 57.295779513082323));
+  lines.add(printed("  %-12s %9u", "vertices", result.vertices));
+  add_count(lines, "coincident", result.coincident, result.vertices, "on a vertex of the source");
+  add_count(lines, "matched", result.matched, result.vertices, "interpolated on its surface");
+  add_count(lines, "inpainted", result.inpainted, result.vertices, "continued from the matched");
+  add_count(lines, "nearest", result.nearest, result.vertices, "closest place without limits");
+  add_count(lines, "locked", result.locked, result.vertices, "kept");
+  lines.add(printed("  refused matches: %u too far, %u turned away; parts: %u, without match %u",
+                    result.too_far, result.turned_away, result.parts, result.parts_without_match));
   for (const TransferStep& step : result.steps)
     if (step.points > 0)
-      text += printed("  step '%.*s' changed %u points by %.3g on average, %.3g at most\n",
-                      static_cast<int>(step.name.size()), step.name.data(), step.points, step.mean,
-                      step.largest);
-  for (const Finding& finding : result.findings) {
-    text += printed("%s %.*s: ", std::string(severity_name(finding.severity)).c_str(),
-                    static_cast<int>(finding.code.size()), finding.code.data());
-    text += finding.text + "\n";
-  }
-  return text;
+      lines.add(printed("  step '%.*s' changed %u points by %.3g on average, %.3g at most",
+                        static_cast<int>(step.name.size()), step.name.data(), step.points,
+                        step.mean, step.largest));
+  for (const Finding& finding : result.findings)
+    lines.add(std::string(severity_name(finding.severity)) + " " + std::string(finding.code) +
+              ": " + finding.text);
+  return lines;
 }
 
 }  // namespace sunder::tools

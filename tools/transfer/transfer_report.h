@@ -5,6 +5,7 @@
 #include <string>
 
 #include "tools/messages/json.h"
+#include "tools/messages/lines.h"
 #include "tools/verbs.h"
 
 namespace sunder::tools {
@@ -16,7 +17,6 @@ namespace sunder::tools {
 [[nodiscard]] Json transfer_json(const TransferRequest& request, const TransferResult& result);
 
 /// A table for people: counts, steps that changed weights, findings.
-[[nodiscard]] std::string transfer_table(const TransferRequest& request,
-                                         const TransferResult& result);
+[[nodiscard]] Lines transfer_table(const TransferRequest& request, const TransferResult& result);
 
 }  // namespace sunder::tools

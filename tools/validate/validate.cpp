@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cstdio>
-#include <cstdlib>
 #include <mutex>
 #include <thread>
-#include <unistd.h>
 
 #include "tools/messages/json_file.h"
+#include "tools/messages/lines.h"
 #include "tools/messages/overwriting.h"
 #include "tools/messages/text_file.h"
 #include "tools/page_parts/page_file.h"
@@ -37,11 +35,6 @@ TargetProfile profile_named(const std::string& name) {
   return TargetProfile::none;
 }
 
-bool is_colourful() {
-  const char* const no_color = std::getenv("NO_COLOR");
-  return isatty(STDOUT_FILENO) != 0 && (no_color == nullptr || *no_color == '\0');
-}
-
 /// Prints results and progress of jobs that run at the same time, whole lines at a time.
 class Output {
  public:
@@ -57,7 +50,7 @@ class Output {
   void result(const Job& job, const ValidatedPair& pair) {
     if (!request_.as_json_lines) {
       const std::scoped_lock lock(mutex_);
-      std::fputs(validation_text(pair, is_colourful()).c_str(), stdout);
+      print(validation_text(pair, output_is_in_colour()));
       return;
     }
     const auto count = [&](Severity severity) {
@@ -82,8 +75,7 @@ class Output {
  private:
   void line(const Json& json) {
     const std::scoped_lock lock(mutex_);
-    std::puts(dump_line(json).c_str());
-    std::fflush(stdout);
+    print_json_line(json);
   }
 
   const ValidateRequest& request_;
@@ -165,7 +157,6 @@ ExitCode run_jobs(const std::vector<Job>& jobs, unsigned threads, Severity fail_
   work();
   for (std::thread& thread : others) thread.join();
   return static_cast<ExitCode>(worst.load());
-  if (manifest) inputs.push_back({"--manifest", *manifest});
 }
 
 /// The first output of a pair that would overwrite an input or the other output; empty if none
@@ -174,6 +165,7 @@ std::string overwriting_output(const Job& job,
                                const std::optional<std::filesystem::path>& manifest) {
   std::vector<NamedFile> inputs = {{"SOURCE", job.pair.source}, {"TARGET", job.pair.target}},
                          outputs;
+  if (manifest) inputs.push_back({"--manifest", *manifest});
   if (job.pair.operations) inputs.push_back({"--ops", *job.pair.operations});
   if (job.pair.bone_names) inputs.push_back({"--bone-names", *job.pair.bone_names});
   if (job.report) outputs.push_back({"--report", *job.report});

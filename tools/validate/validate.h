@@ -11,6 +11,7 @@
 
 #include "tools/messages/exit_code.h"
 #include "tools/messages/json.h"
+#include "tools/messages/lines.h"
 #include "tools/model/model_reading.h"
 
 namespace sunder::tools {
@@ -52,7 +53,7 @@ struct ValidateFailure {
 
 /// The report for people: one line per finding and a verdict.
 /// @param in_colour  with escape sequences.
-[[nodiscard]] std::string validation_text(const ValidatedPair& pair, bool in_colour);
+[[nodiscard]] Lines validation_text(const ValidatedPair& pair, bool in_colour);
 
 /// Whether some finding is at or above a severity.
 [[nodiscard]] bool has_findings(const ValidationReport& report, Severity severity);

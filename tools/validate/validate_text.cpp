@@ -6,66 +6,65 @@
 namespace sunder::tools {
 namespace {
 
-/// The name of a severity, eight wide, in its colour.
-std::string label(Severity severity, bool in_colour) {
-  const std::string name = printed("%-8s", std::string(severity_name(severity)).c_str());
-  if (!in_colour) return name;
-  const char* const colour = severity == Severity::error     ? "\x1b[31m"
-                             : severity == Severity::warning ? "\x1b[33m"
-                                                             : "\x1b[36m";
-  return colour + name + "\x1b[0m";
+Colour colour_of(Severity severity) {
+  return severity == Severity::error     ? Colour::red
+         : severity == Severity::warning ? Colour::yellow
+                                         : Colour::cyan;
 }
 
-std::string posed_lines(const ValidationReport& report) {
-  std::string text;
+void add_posed(Lines& lines, const ValidationReport& report) {
   for (const PosedFigures& figures : report.posed) {
     if (figures.pose_count == 0) {
-      text += printed("%-16s not tested\n", std::string(figures.poses).c_str());
+      lines.add(printed("%-16s not tested", std::string(figures.poses).c_str()));
       continue;
     }
-    text += printed(
-        "%-16s %4u poses  mean %.3g  rms %.3g  p95 %.3g  max %.3g m (%.3g %% of the "
-        "diagonal, %.3g %% of an edge)\n",
-        std::string(figures.poses).c_str(), figures.pose_count, figures.mean, figures.rms,
-        figures.p95, figures.maximum, 100.0 * figures.maximum_of_diagonal,
-        100.0 * figures.maximum_of_edge);
+    lines.add(
+        printed("%-16s %4u poses  mean %.3g  rms %.3g  p95 %.3g  max %.3g m (%.3g %% of the "
+                "diagonal, %.3g %% of an edge)",
+                std::string(figures.poses).c_str(), figures.pose_count, figures.mean, figures.rms,
+                figures.p95, figures.maximum, 100.0 * figures.maximum_of_diagonal,
+                100.0 * figures.maximum_of_edge));
     if (figures.covered_share > 0.0)
-      text +=
-          printed("%-16s no more than this max in %.1f %% of such poses, with confidence 95 %%\n",
-                  "", 100.0 * figures.covered_share);
+      lines.add(
+          printed("%-16s no more than this max in %.1f %% of such poses, with confidence 95 %%", "",
+                  100.0 * figures.covered_share));
   }
-  return text;
 }
 
 std::string bracket_line(const DeviationBracket& bracket) {
-  if (!bracket.is_tested) return printed("%-16s none: %s\n", "certificate", bracket.why.c_str());
-  return printed("%-16s all poses within the limits: found %.4g m, certified %.4g m.%.300s\n",
+  if (!bracket.is_tested) return printed("%-16s none: %s", "certificate", bracket.why.c_str());
+  return printed("%-16s all poses within the limits: found %.4g m, certified %.4g m.%.300s",
                  "certificate", bracket.found, bracket.certified, bracket.why.c_str());
 }
 
 }  // namespace
 
-std::string validation_text(const ValidatedPair& pair, bool in_colour) {
+Lines validation_text(const ValidatedPair& pair, bool in_colour) {
   const ValidationReport& report = pair.report;
-  std::string text = pair.source_file.string() + " -> " + pair.target_file.string() + "\n";
+  Lines lines;
+  lines.add(pair.source_file.string() + " -> " + pair.target_file.string());
   for (const Finding& finding : report.findings) {
-    text += label(finding.severity, in_colour) + " " + std::string(finding.code) + "\n         " +
-            finding.text + "\n";
-    if (finding.severity > Severity::note) text += "         " + std::string(finding.advice) + "\n";
+    lines.add(in_colour ? colour_of(finding.severity) : Colour::none,
+              printed("%-8s", std::string(severity_name(finding.severity)).c_str()),
+              " " + std::string(finding.code));
+    lines.add("         " + finding.text);
+    if (finding.severity > Severity::note) lines.add("         " + std::string(finding.advice));
   }
-  text += printed("%-16s %u of %u vertices unmatched; of the source %u of %u\n", "matching",
-                  report.matching.target_unmatched, report.matching.target_samples,
-                  report.matching.source_unmatched, report.matching.source_samples);
-  text += posed_lines(report) + bracket_line(report.bracket);
+  lines.add(printed("%-16s %u of %u vertices unmatched; of the source %u of %u", "matching",
+                    report.matching.target_unmatched, report.matching.target_samples,
+                    report.matching.source_unmatched, report.matching.source_samples));
+  add_posed(lines, report);
+  lines.add(bracket_line(report.bracket));
   const auto count = [&](Severity severity) {
     return static_cast<unsigned>(std::ranges::count(report.findings, severity, &Finding::severity));
   };
   const auto untested =
       std::ranges::count(report.verdicts, Verdict::not_tested, &CodeVerdict::verdict);
-  text += printed("%-16s %u errors, %u warnings, %u notes; %u of %zu checks not tested\n",
-                  "verdict", count(Severity::error), count(Severity::warning),
-                  count(Severity::note), static_cast<unsigned>(untested), report.verdicts.size());
-  return text;
+  lines.add(printed("%-16s %u errors, %u warnings, %u notes; %u of %zu checks not tested",
+                    "verdict", count(Severity::error), count(Severity::warning),
+                    count(Severity::note), static_cast<unsigned>(untested),
+                    report.verdicts.size()));
+  return lines;
 }
 
 }  // namespace sunder::tools
