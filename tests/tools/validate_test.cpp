@@ -137,6 +137,16 @@ TEST_F(Validate, a_manifest_compares_many_pairs_and_the_worst_exit_code_counts) 
   EXPECT_EQ(read_report(path("b.json"))["counts"]["error"], 1);
 }
 
+TEST_F(Validate, a_manifest_is_no_output) {
+  const std::string manifest = R"({"pairs": [
+    {"source": "model.glb", "target": "model.glb", "report": "self.json"}]})";
+  std::ofstream(path("self.json")) << manifest;
+  const auto result = run_sunder({"validate", "--manifest", path("self.json")});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("would overwrite --manifest"));
+  EXPECT_EQ(read_report(path("self.json")), json::parse(manifest));
+}
+
 TEST_F(Validate, the_page_has_the_deviation_over_the_time_of_each_clip) {
   ASSERT_TRUE(save_glb(path("four.glb"), tools::make_cactus(), {4, WeightFormat::float32}));
   const auto result = run_sunder({"validate", path("model.glb"), path("four.glb"), "--report",

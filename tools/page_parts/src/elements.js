@@ -10,8 +10,10 @@ const UNSEEN = /[\u0000-\u001f\u007f-\u009f\u00ad\u061c\u180e\u200b\u200e\u200f\
 
 /** A text in which names of files and models may stand, with what is not seen or turns the direction of writing shown
  * as an escape: "\u202e". All texts of the page pass through here. */
-export const visible = (text) => String(text).replace(UNSEEN,
-  (unseen) => `\\u${unseen.codePointAt(0).toString(16).padStart(4, '0')}`);
+export const visible = (text) => String(text).replace(UNSEEN, (unseen) => {
+  const number = unseen.codePointAt(0).toString(16);
+  return number.length > 4 ? `\\U${number.padStart(8, '0')}` : `\\u${number.padStart(4, '0')}`;
+});
 
 export function setText(node, text) {
   node.textContent = visible(text);
