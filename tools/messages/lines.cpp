@@ -1,8 +1,6 @@
 #include "tools/messages/lines.h"
 
 #include <cstdio>
-#include <cstdlib>
-#include <unistd.h>
 
 #include "tools/messages/progress_bar.h"
 #include "tools/messages/visible.h"
@@ -53,11 +51,6 @@ void print_text(std::string_view text) {
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
   }
   put(shown);
-}
-
-bool output_is_in_colour() {
-  const char* const no_color = std::getenv("NO_COLOR");
-  return (no_color == nullptr || *no_color == '\0') && isatty(STDOUT_FILENO) == 1;
 }
 
 }  // namespace sunder::tools

@@ -35,7 +35,4 @@ void print_json_line(const Json& json);
 /// lines are treated like those of Lines.
 void print_text(std::string_view text);
 
-/// Whether stdout shows colours: a terminal, and NO_COLOR is not set (https://no-color.org).
-[[nodiscard]] bool output_is_in_colour();
-
 }  // namespace sunder::tools

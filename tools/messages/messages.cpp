@@ -15,7 +15,7 @@ constexpr const char kYellow[] = "\x1b[33m";
 
 void print(const std::string& text, const char* colour) {
   erase_progress_bar();
-  if (colour != nullptr && errors_are_in_colour())
+  if (colour != nullptr && is_in_colour(STDERR_FILENO))
     std::fprintf(stderr, "%s%s\x1b[0m\n", colour, visible_line(text).c_str());
   else
     std::fprintf(stderr, "%s\n", visible_line(text).c_str());
@@ -23,9 +23,9 @@ void print(const std::string& text, const char* colour) {
 
 }  // namespace
 
-bool errors_are_in_colour() {
+bool is_in_colour(int descriptor) {
   const char* const no_color = std::getenv("NO_COLOR");
-  return (no_color == nullptr || *no_color == '\0') && isatty(STDERR_FILENO) == 1;
+  return (no_color == nullptr || *no_color == '\0') && isatty(descriptor) == 1;
 }
 
 void print_error(const std::string& text) { print(text, kRed); }

@@ -11,8 +11,9 @@ enum class Verbosity {
   verbose,  ///< Also details and durations.
 };
 
-/// Whether stderr shows colours: a terminal, and NO_COLOR is not set (https://no-color.org).
-[[nodiscard]] bool errors_are_in_colour();
+/// Whether stdout (1) or stderr (2) shows colours: a terminal, and NO_COLOR is not set
+/// (https://no-color.org).
+[[nodiscard]] bool is_in_colour(int descriptor);
 
 /// Prints an error on stderr, in red where there are colours: one line, by visible_line().
 void print_error(const std::string& text);

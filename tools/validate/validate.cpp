@@ -4,9 +4,11 @@
 #include <atomic>
 #include <mutex>
 #include <thread>
+#include <unistd.h>
 
 #include "tools/messages/json_file.h"
 #include "tools/messages/lines.h"
+#include "tools/messages/messages.h"
 #include "tools/messages/overwriting.h"
 #include "tools/messages/text_file.h"
 #include "tools/page_parts/page_file.h"
@@ -50,7 +52,7 @@ class Output {
   void result(const Job& job, const ValidatedPair& pair) {
     if (!request_.as_json_lines) {
       const std::scoped_lock lock(mutex_);
-      print(validation_text(pair, output_is_in_colour()));
+      print(validation_text(pair, is_in_colour(STDOUT_FILENO)));
       return;
     }
     const auto count = [&](Severity severity) {
