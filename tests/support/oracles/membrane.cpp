@@ -140,11 +140,12 @@ SlitSheet::SlitSheet(std::uint32_t cells, double half, double range, const SoftM
   while (set->settle(*model, 100000)) continue;
 }
 
-void SlitSheet::open(double newtons_per_metre) {
-  check(body->set_tension({newtons_per_metre, {}}));
-  check(body->step(*model, pose, 1.0 / 60));
+void pull_open(SoftBody& body, const TornModel& model, const ModelPose& pose,
+               double newtons_per_metre) {
+  check(body.set_tension({newtons_per_metre, {}}));
+  check(body.step(model, pose, 1.0 / 60));
   // Long steps end in the balance, which is all that counts here.
-  for (int i = 0; i < 400 && body->awake_count() > 0; ++i) check(body->step(*model, pose, 0.1));
+  for (int i = 0; i < 400 && body.awake_count() > 0; ++i) check(body.step(model, pose, 0.1));
 }
 
 double GapProfile::widest() const { return *std::max_element(width.begin(), width.end()); }
