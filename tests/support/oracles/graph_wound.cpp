@@ -5,25 +5,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <numbers>
 
+#include "support/machine/checked.h"
 #include "support/models/rigs.h"
 #include "support/oracles/membrane.h"
 #include "tear/internal/surface.h"
 
 namespace sunder::test {
 namespace {
-
-template <class T>
-T checked(Result<T> result) {
-  if (!result) {
-    std::fprintf(stderr, "%s\n", std::string(result.error().text()).c_str());
-    std::abort();
-  }
-  return std::move(*result);
-}
 
 SoftMaterial material_of(const TwoMembranes::Membrane& membrane) {
   SoftMaterial material;
@@ -72,7 +62,7 @@ GraphWound::GraphWound(const GraphSurface& on, const TwoMembranes& of, const Gra
   ChangeRecord change;
   (void)checked(model->tear(pose, stroke, {}, &change));
   lips = change.lips;
-  if (!set->follow(*model, {&change, 1})) std::abort();
+  check(set->follow(*model, {&change, 1}));
   while (set->settle(*model, 100000)) continue;
   (void)body->displacements();  // makes room for the new particles
   for (std::uint32_t p = 0; p < set->particle_count(); ++p) {
@@ -81,7 +71,7 @@ GraphWound::GraphWound(const GraphSurface& on, const TwoMembranes& of, const Gra
         materials.across == TwoMembranes::Across::x ? double{seed.x()} : double{seed.y()};
     const bool is_second =
         materials.across != TwoMembranes::Across::nothing && at > materials.border;
-    if (!body->set_material(p, is_second ? 1 : 0)) std::abort();
+    check(body->set_material(p, is_second ? 1 : 0));
   }
 }
 

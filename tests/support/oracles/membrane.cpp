@@ -4,33 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <numeric>
 
 #include <Eigen/SparseCholesky>
 
 #include "particles/internal/angular_frequency.h"
+#include "support/machine/checked.h"
 #include "support/models/rigs.h"
 #include "tear/internal/surface.h"
 
 namespace sunder::test {
 namespace {
-
-template <class T>
-T checked(Result<T> result) {
-  if (!result) {
-    std::fprintf(stderr, "%s\n", std::string(result.error().text()).c_str());
-    std::abort();
-  }
-  return std::move(*result);
-}
-
-void check(const Status& status) {
-  if (status) return;
-  std::fprintf(stderr, "%s\n", std::string(status.text()).c_str());
-  std::abort();
-}
 
 GapProfile gap_between(const SlitSheet& sheet, const std::vector<Vec3d>& displacements) {
   const std::span<const Vec3f> at = sheet.set->positions();
