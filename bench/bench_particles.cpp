@@ -12,6 +12,7 @@
 #include "bench/particles/particles_decompose.h"
 #include "bench/particles/particles_errors.h"
 #include "bench/particles/particles_membrane.h"
+#include "bench/particles/particles_oracle.h"
 #include "bench/particles/particles_repair.h"
 #include "bench/particles/particles_steps.h"
 #include "bench/particles/particles_surface.h"
@@ -20,7 +21,7 @@ namespace sunder::bench {
 namespace {
 
 constexpr const char* kHelp =
-    "bench_particles [--summary | --surfaces | --gaps | --errors [FILE.svg]]\n"
+    "bench_particles [--summary | --surfaces | --gaps | --oracle | --errors [FILE.svg]]\n"
     "\n"
     "The bunny with 1, 2, 3, 7 and 16 divisions per edge, on 64 bones. Medians, candidates in\n"
     "turns, one thread.\n"
@@ -42,8 +43,12 @@ constexpr const char* kHelp =
     "Errors: displacement, gap and length of such a slit against the range of particles, over six\n"
     "orders of their seeds; not among the tables by default.\n"
     "\n"
+    "Oracle: gap and displacement of such slits in curved surfaces, on uneven meshes and of two\n"
+    "materials, against biquadratic finite elements on grids of their own; mesh and range refined\n"
+    "together, over six orders of seeds; not among the tables by default.\n"
+    "\n"
     "Prints tables. --surfaces prints the table of displaced surfaces alone, --gaps that of gaps,\n"
-    "--errors that of errors, and draws it as SVG,\n"
+    "--oracle that of the oracle, --errors that of errors, and draws it as SVG,\n"
     "--summary prints one JSON object instead.\n"
     "  bunny_decompose_ms      ParticleSet::create() of 3,485 points, range a tenth of the "
     "diagonal\n"
@@ -194,6 +199,32 @@ void print_errors(const std::vector<ErrorFigures>& errors) {
   std::printf("displacement falls with the range to the power %.2f\n", order_of(errors));
 }
 
+void print_oracle(const std::vector<OracleCase>& cases) {
+  std::printf(
+      "Slits of 0.4 m under 1.2 N/m against biquadratic finite elements, percent; mean over six "
+      "orders of seeds +- standard\ndeviation of one. Width: of the widest gap by the reference's; "
+      "elements: the same of linear elements on our mesh.\nGap, displacement: root mean squares by "
+      "the widest gap and by half of it. Order: of the displacement, by the range.\n"
+      "surface                      cells range particles  elements          width             gap "
+      "  "
+      "displacement\n");
+  for (const OracleCase& of : cases) {
+    for (const OracleFigures& at : of.refined) {
+      std::printf("%-28s %5u %5.2f %9.0f ", of.name.c_str(), at.cells, at.range, at.particles);
+      if (at.elements_width > 0)
+        std::printf("%9.1f", 100 * at.elements_width);
+      else
+        std::printf("%9s", "-");
+      std::printf("  %6.1f +- %4.1f   %5.2f +- %4.2f   %5.2f +- %4.2f\n", 100 * at.width.mean,
+                  100 * at.width.deviation, 100 * at.gap.mean, 100 * at.gap.deviation,
+                  100 * at.displacement.mean, 100 * at.displacement.deviation);
+    }
+    std::printf("%-28s order %.2f; the reference on half as fine a grid: %.2f %% off\n", "",
+                of.order, 100 * of.reference_error);
+  }
+  std::fflush(stdout);
+}
+
 constexpr std::uint32_t kStepped = 200;
 constexpr int kSteppedDivisions = 2;
 
@@ -279,6 +310,10 @@ int main(int argc, char** argv) {
   }
   if (argc == 2 && std::strcmp(argv[1], "--gaps") == 0) {
     sunder::bench::print_gaps();
+    return 0;
+  }
+  if (argc == 2 && std::strcmp(argv[1], "--oracle") == 0) {
+    sunder::bench::print_oracle(sunder::bench::measure_against_oracle(6));
     return 0;
   }
   if ((argc == 2 || argc == 3) && std::strcmp(argv[1], "--errors") == 0) {

@@ -42,6 +42,13 @@ Result<double> gap_per_tension(const SoftMaterial& material, double wound_length
   return ratio * wound_length / stiffness;
 }
 
+/// A preset whose slits run on at the gap at which those of the real tissue do.
+/// @param toughness_by_modulus  of the real tissue: J/m^2 by N/m^2, metres.
+SoftMaterial preset(SoftMaterial material, double toughness_by_modulus) {
+  material.toughness = 2 * material.membrane_stiffness * toughness_by_modulus;
+  return material;
+}
+
 }  // namespace
 
 Status validate_material(const SoftMaterial& material) {
@@ -74,16 +81,15 @@ Status validate_material(const SoftMaterial& material) {
 
 std::span<const SoftMaterial> material_presets() {
   // docs/particles.md has the source of each value, and says which are chosen for their look.
-  // Toughness by membrane stiffness is that of the real tissue.
   static const std::array presets = {
-      SoftMaterial{"skin", 3.2, 0.7, 9, 0.6, 0.44, 0.08, 1.6, 1.54, 0.36},
-      SoftMaterial{"fat", 1.5, 0.35, 3, 0.2, 0.73, 0.12, 0, 2.2, 0.6},
-      SoftMaterial{"muscle", 4.8, 0.8, 32, 1.7, 0.85, 0.1, 1.4, 1.35, 0.8},
-      SoftMaterial{"liver", 2.0, 0.5, 3, 0.2, 0.86, 0.1, 0, 1.4, 0.09},
-      SoftMaterial{"rubber", 4.8, 0.15, 25, 0.25, 0.38, 0.1, 3.0, 2.8, 0.063},
-      SoftMaterial{"foam", 1.95, 1.0, 1.5, 0.25, 0.2, 0.12, 0, 1.5, 0.015},
-      SoftMaterial{"cloth", 1.0, 0.4, 0.7, 0.03, 0.2, 0.1, 1.15, 1.12, 0.004},
-      SoftMaterial{"jelly", 1.23, 0.1, 5, 0.13, 0.8, 0.15, 0, 1.7, 0.1},
+      preset({"skin", 3.2, 0.7, 9, 0.6, 1109 * 0.4e-3, 0.08, 1.6, 1.54}, 17e3 / 0.42e6),
+      preset({"fat", 1.5, 0.35, 3, 0.2, 911 * 0.8e-3, 0.12, 0, 2.2}, 0.2),
+      preset({"muscle", 4.8, 0.8, 32, 1.7, 1090 * 0.8e-3, 0.1, 1.4, 1.35}, 550 / 22e3),
+      preset({"liver", 2.0, 0.5, 3, 0.2, 1079 * 0.8e-3, 0.1, 0, 1.4}, 164 / 5.5e3),
+      preset({"rubber", 4.8, 0.15, 25, 0.25, 950 * 0.4e-3, 0.1, 3.0, 2.8}, 3e3 / (3 * 0.39e6)),
+      preset({"foam", 1.95, 1.0, 1.5, 0.25, 250 * 0.8e-3, 0.12, 0, 1.5}, 0.01),
+      preset({"cloth", 1.0, 0.4, 0.7, 0.03, 0.2, 0.1, 1.15, 1.12}, 0.006),
+      preset({"jelly", 1.23, 0.1, 5, 0.13, 1000 * 0.8e-3, 0.15, 0, 1.7}, 0.02),
   };
   return presets;
 }

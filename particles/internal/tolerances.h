@@ -121,6 +121,9 @@ inline constexpr double kLeastForwardCosine = 0.2;
 inline constexpr double kTipDiscSpacings = 6, kTipCorePart = 0.25;
 /// Where the surface around a tip has a smaller angle, radians, a gap ends bluntly.
 inline constexpr double kSharpTipAngle = 5;
+/// Tissue whose plane turned by more than the angle of this cosine, 150 degrees, was pressed
+/// through itself.
+inline constexpr double kPressedThroughCosine = -0.8660254037844387;
 /// Neighbours are in a row if the determinant of their moments is below this fraction of the
 /// squared trace.
 inline constexpr double kRowDeterminantFraction = 1e-4;

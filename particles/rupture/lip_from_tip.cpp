@@ -1,6 +1,7 @@
 #include "particles/rupture/lip_from_tip.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/internal/ordered.h"
 #include "particles/clusters/lip_border.h"
@@ -45,7 +46,27 @@ Vec3d LipFromTip::displacement(double distance) const {
   return tissue_.displacement(before->point) * (1 - t) + there * t;
 }
 
-Vec3d LipFromTip::pull_of(const Place& place) const {
+Vec3d LipFromTip::inward(double begin, double end) const {
+  Vec3d sum = Vec3d::Zero();
+  double from = 0, weights = 0;
+  for (const Place& place : places_) {
+    const bool is_last = &place == &places_.back();
+    const double first = std::max(from, begin), last = std::min(place.distance, end);
+    from = place.distance;
+    const double weight = is_last && !(weights > 0) ? 1.0 : std::sqrt(last) - std::sqrt(first);
+    if (!(weight > 0)) continue;
+    const LipEdge lip = edge_of(place);
+    Vec3d turned = Vec3d::Zero();
+    for (const Index point : lip.points)
+      if (const Index owner = tissue_.set.owners()[point]; owner != kNone)
+        turned += 0.5 * multiply(tissue_.rests.turn(owner), lip.inward.cast<double>());
+    sum += weight * turned;
+    weights += weight;
+  }
+  return weights > 0 ? Vec3d(sum / weights) : sum;
+}
+
+LipEdge LipFromTip::edge_of(const Place& place) const {
   const Surface& surface = tissue_.model.surface();
   const std::array<Index, 2> ends = {surface.corner_point[place.half_edge],
                                      surface.corner_point[Surface::next(place.half_edge)]};
@@ -54,9 +75,13 @@ Vec3d LipFromTip::pull_of(const Place& place) const {
               apex = tissue_.position(surface.corner_point[Surface::previous(place.half_edge)]);
   const Vec3d to_apex = apex - from;
   const Vec3d inward = normalized(Vec3d(to_apex - dot(to_apex, edge) * edge));
-  const LipEdge lip{ends, inward.cast<float>()};
+  return {ends, inward.cast<float>()};
+}
+
+Vec3d LipFromTip::pull_of(const Place& place) const {
+  const LipEdge lip = edge_of(place);
   Vec3d sum = Vec3d::Zero();
-  for (const Index point : ends)
+  for (const Index point : lip.points)
     if (const Index owner = tissue_.set.owners()[point]; owner != kNone)
       sum += 0.5 * multiply(tissue_.rests.turn(owner),
                             pull_at(lip, tissue_.set.positions(), tissue_.tension,

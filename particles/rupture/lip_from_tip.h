@@ -31,6 +31,10 @@ class LipFromTip {
   }
   /// The displacement at a distance from the tip, linear between points.
   [[nodiscard]] Vec3d displacement(double distance) const;
+  /// The mean direction from the lip into the surface, in model space, between two distances from
+  /// the tip, weighted as 1 / sqrt(distance); of the last edge if the lip is shorter. It is shorter
+  /// than 1 where the lip is bent.
+  [[nodiscard]] Vec3d inward(double begin, double end) const;
   /// The sum over the edges of weight(begin, end) times the tension's pull per length, N/m, in
   /// model space; begin and end are distances from the tip.
   template <class Weight>
@@ -49,6 +53,7 @@ class LipFromTip {
     Index point = 0, half_edge = 0;  ///< The half-edge between this point and the one before.
     double distance = 0;
   };
+  [[nodiscard]] LipEdge edge_of(const Place& place) const;
   [[nodiscard]] Vec3d pull_of(const Place& place) const;
 
   const Tissue& tissue_;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/internal/ordered.h"
+#include "particles/internal/tolerances.h"
 #include "particles/motion/pose_tension.h"
 
 namespace sunder::particles {
@@ -23,6 +24,28 @@ double strain_of_row(const Mat3d& moments, const Mat3d& displaced) {
   return squares > 0 ? trace(displaced) / squares : 0.0;
 }
 
+/// The cosine of the angle by which the tissue's plane turned, from moments as those of
+/// strain_of().
+double cosine_of_turn(const Mat3d& moved) {
+  Mat3d areas;
+  for (int i = 0; i < 3; ++i) areas.col(i) = moved.col((i + 1) % 3).cross(moved.col((i + 2) % 3));
+  const double size = std::sqrt(squared_norm(areas));
+  return size > 0 ? trace(areas) / size : 1.0;
+}
+
+/// The greatest strain of tissue that hardly turns, also where it is pressed through itself: that
+/// of the symmetric part of the gradient in its plane. @param moments, moved  as those of
+/// strain_of(), which is not zero.
+double greatest_without_turn(const Mat3d& moments, const Mat3d& moved) {
+  const double sum = trace(moments);
+  const Mat3d square = multiply(moments, moments);
+  const double determinant = 0.5 * (sum * sum - trace(square));  // of the moments in the plane
+  const Mat3d inverse = (sum * Mat3d::Identity() - moments) / determinant;  // in the plane
+  const Mat3d plane = multiply(moments, inverse);
+  const Mat3d gradient = multiply(plane, multiply(moved, inverse)) - plane;
+  return greatest_in_plane(0.5 * (gradient + gradient.transpose()));
+}
+
 }  // namespace
 
 double stretch_around(const Tissue& tissue, Index particle) {
@@ -37,9 +60,10 @@ double stretch_around(const Tissue& tissue, Index particle) {
   }
   // Displacements are along the axes of model space, in which the particle is turned.
   const Mat3d back = tissue.rests.turn(particle).transpose();
-  const Mat3d strain = strain_of(moments, Mat3d(moments + multiply(back, displaced)));
-  return 1 + (strain.isZero(0) ? strain_of_row(moments, multiply(back, displaced))
-                               : greatest_in_plane(strain));
+  const Mat3d moved = moments + multiply(back, displaced), strain = strain_of(moments, moved);
+  if (strain.isZero(0)) return 1 + strain_of_row(moments, multiply(back, displaced));
+  return 1 + (cosine_of_turn(moved) < kPressedThroughCosine ? greatest_without_turn(moments, moved)
+                                                            : greatest_in_plane(strain));
 }
 
 std::vector<Overstretched> find_overstretched(const Tissue& tissue, double& greatest) {

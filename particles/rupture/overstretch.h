@@ -14,7 +14,8 @@ struct Overstretched {
 
 /// The greatest principal stretch of the tissue around a particle, by its displacements: of the
 /// linear map that fits best how its neighbours' seeds moved from its own. It is exact where strain
-/// is even, and converges to the stretch of the surface with smaller ranges. O(neighbours).
+/// is even, and converges to the stretch of the surface with smaller ranges. Tissue whose plane
+/// faces backwards counts as pressed through itself, not as turned over. O(neighbours).
 [[nodiscard]] double stretch_around(const Tissue& tissue, Index particle);
 
 /// Awake particles beyond the strength of their material, the worst first. O(particles + awake

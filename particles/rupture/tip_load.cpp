@@ -58,6 +58,20 @@ class Cutoff {
   double core_, width_;
 };
 
+/// The direction across the lips, from the first to the second, along the surface; zero if they
+/// have none, as at the rim of two layers that lie upon one another.
+Vec3d across_lips(const LipFromTip& first, const LipFromTip& second, double begin, double end) {
+  return normalized(Vec3d(second.inward(begin, end) - first.inward(begin, end)));
+}
+
+/// The squared length of a displacement of the second lip from the first, without the part that
+/// would push them into one another: lips that touch carry pressure, and a pressure at both lips
+/// moves them across only.
+double squared_parting(const Vec3d& parting, const Vec3d& across) {
+  const double closing = std::min(dot(parting, across), 0.0);
+  return squared_norm(Vec3d(parting - closing * across));
+}
+
 /// The factor a of the displacement a sqrt(r) sin(theta / 2) at a sharp tip.
 ///
 /// psi = exp(-r / reach) / sqrt(r) sin(theta / 2) solves the membrane's equation without loads, and
@@ -104,10 +118,11 @@ Vec3d opening_at(const Tissue& tissue, const TipDisc& disc, const Membrane& memb
 double squared_opening_by_width(const LipFromTip& first, const LipFromTip& second, double spacing,
                                 double length) {
   constexpr int kSamples = 16;
+  const Vec3d across = across_lips(first, second, 2 * spacing, 5 * spacing);
   double sum = 0;
   for (int i = 0; i < kSamples; ++i) {
     const double distance = spacing * (2 + 3 * (i + 0.5) / kSamples);
-    sum += squared_norm(Vec3d(first.displacement(distance) - second.displacement(distance))) /
+    sum += squared_parting(second.displacement(distance) - first.displacement(distance), across) /
            (4 * distance * (1 - distance / std::max(length, 2 * distance)));
   }
   return sum / kSamples;
@@ -137,7 +152,8 @@ std::vector<TipLoad> tip_loads(const Tissue& tissue, std::span<const Index> tips
     const TipDisc disc(tissue, tip);
     const double squared =
         disc.angle() > kSharpTipAngle
-            ? squared_norm(opening_at(tissue, disc, membrane, load.radius, first, second))
+            ? squared_parting(opening_at(tissue, disc, membrane, load.radius, first, second),
+                              across_lips(first, second, 0, load.radius))
             : squared_opening_by_width(first, second, spacing, length);
     load.release = std::numbers::pi / 4 * membrane.stiffness * squared;
     loads.push_back(load);

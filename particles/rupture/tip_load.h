@@ -15,7 +15,8 @@ struct TipLoad {
 /// The loads of those tips at which one of the two particles is awake.
 ///
 /// Next to a tip a membrane of stiffness S moves by a sqrt(r) sin(theta / 2) in polar coordinates,
-/// and running on releases pi S a^2 / 4 per length (Griffith 1921, Irwin 1957). The reciprocal
+/// and running on releases pi S |a|^2 / 4 per length (Griffith 1921, Irwin 1957), where the part of
+/// the vector a that would push the lips into one another does not count. The reciprocal
 /// theorem gives a from the displacements and the loads within some spacings of the small
 /// particles; see docs/particles.md.
 ///

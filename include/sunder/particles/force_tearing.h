@@ -20,7 +20,7 @@ struct ForceTearingReport {
   /// Greatest stretch by displacements around an awake particle whose material has a strength.
   double greatest_stretch = 1.0;
   /// Greatest energy that a tip would release by running on, joules per metre, in tissue with a
-  /// toughness or strength.
+  /// toughness or strength. Pressing the lips together releases none.
   double greatest_release = 0.0;
   bool has_torn = false;
   bool is_from_tip = false;     ///< Whether the tear continues an older one.
@@ -31,7 +31,8 @@ struct ForceTearingReport {
 
 /// Tears the tissue where it gives way, at one place, across the direction of the greatest stretch.
 /// A tip runs on if that releases at least the energy that the material takes: its toughness, or
-/// that by its strength and flaws (Griffith). Where no tip is near, a tear begins if the tissue is
+/// that by its strength and flaws (Griffith); only pulling its lips apart and shearing them count.
+/// Where no tip is near, a tear begins if the tissue is
 /// stretched beyond its strength. Loads hardly depend on the range and the mesh, see
 /// docs/particles.md. Call it after SoftBody::step(). The tear is an operation in the history,
 /// which can be undone and replayed. Deterministic; one thread at a time per model.

@@ -4,33 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <numeric>
 
 #include <Eigen/SparseCholesky>
 
 #include "particles/internal/angular_frequency.h"
+#include "support/machine/checked.h"
 #include "support/models/rigs.h"
 #include "tear/internal/surface.h"
 
 namespace sunder::test {
 namespace {
-
-template <class T>
-T checked(Result<T> result) {
-  if (!result) {
-    std::fprintf(stderr, "%s\n", std::string(result.error().text()).c_str());
-    std::abort();
-  }
-  return std::move(*result);
-}
-
-void check(const Status& status) {
-  if (status) return;
-  std::fprintf(stderr, "%s\n", std::string(status.text()).c_str());
-  std::abort();
-}
 
 GapProfile gap_between(const SlitSheet& sheet, const std::vector<Vec3d>& displacements) {
   const std::span<const Vec3f> at = sheet.set->positions();
@@ -140,11 +125,12 @@ SlitSheet::SlitSheet(std::uint32_t cells, double half, double range, const SoftM
   while (set->settle(*model, 100000)) continue;
 }
 
-void SlitSheet::open(double newtons_per_metre) {
-  check(body->set_tension({newtons_per_metre, {}}));
-  check(body->step(*model, pose, 1.0 / 60));
+void pull_open(SoftBody& body, const TornModel& model, const ModelPose& pose,
+               double newtons_per_metre) {
+  check(body.set_tension({newtons_per_metre, {}}));
+  check(body.step(model, pose, 1.0 / 60));
   // Long steps end in the balance, which is all that counts here.
-  for (int i = 0; i < 400 && body->awake_count() > 0; ++i) check(body->step(*model, pose, 0.1));
+  for (int i = 0; i < 400 && body.awake_count() > 0; ++i) check(body.step(model, pose, 0.1));
 }
 
 double GapProfile::widest() const { return *std::max_element(width.begin(), width.end()); }

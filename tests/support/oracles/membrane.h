@@ -22,6 +22,10 @@ std::vector<Vec3d> solve_membrane(const TornModel& model, std::span<const Vec3f>
 /// The forces of a tension at lips: half of each edge's at each of its ends.
 std::vector<Vec3d> lip_forces(const ParticleSet& set, double newtons_per_metre);
 
+/// Pulls the lips of a body apart until nothing moves any more.
+void pull_open(SoftBody& body, const TornModel& model, const ModelPose& pose,
+               double newtons_per_metre);
+
 /// A flat sheet of one metre in the plane z = 0, with a slit along x in its middle.
 struct SlitSheet {
   std::shared_ptr<const Character> character;
@@ -40,8 +44,7 @@ struct SlitSheet {
   SlitSheet(std::uint32_t cells, double half_length, double range, const SoftMaterial& material,
             double size = 1, std::uint64_t seed_order = 0);
 
-  /// Pulls the lips apart until nothing moves any more.
-  void open(double newtons_per_metre);
+  void open(double newtons_per_metre) { pull_open(*body, *model, pose, newtons_per_metre); }
 };
 
 /// The distance of the lips along a slit, in the order of x.
