@@ -41,7 +41,7 @@ class InfluenceChooser {
         bind_(bind),
         budget_(budget),
         bits_(budget.bits),
-        bound_of_(tree, 2 * most_influences()) {
+        bound_of_(tree, 2 * most_influences(), kDividedSumTolerance) {
     std::sort(bits_.begin(), bits_.end());
   }
 

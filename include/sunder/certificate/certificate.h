@@ -26,6 +26,9 @@ struct SkinTerm {
 struct SkinDifferences {
   std::vector<std::uint32_t> first = {0};  ///< One per point and one more: offsets into `terms`.
   std::vector<SkinTerm> terms;             ///< Each bone at most once per point, ascending.
+  /// The largest |sum_k share_k * (sum of the weights of vertex k - 1)| that append_difference()
+  /// took out of a row when it divided weights by their sums.
+  double divided_sum = 0.0;
 };
 
 /// A vertex and its coefficient in a sum of posed vertices.
@@ -114,15 +117,28 @@ struct CertificateGap {
   std::uint32_t count = 0;      ///< Number of points.
 };
 
-/// No pose within the limits moves the two skins of a point farther apart than its bound.
+/// Weight that crosses a bone whose slide has no range, at most 4e-6: rounding of sums of weights.
+struct SlideResidual {
+  std::uint32_t bone = kNone;
+  double weight = 0.0;  ///< Of all points the largest: metres per metre that the bone slides.
+  std::uint32_t point = kNone;  ///< The first with that weight.
+};
+
+/// No pose within the limits moves the two skins of a point farther apart than its bound and what
+/// sums of weights that are not quite equal add: `slide_residuals` and `sum_residual`.
 struct DeviationCertificate {
   std::vector<double> bound;    ///< One per point, metres; infinity where there is no certificate.
   double maximum = 0.0;         ///< Of the points that have a certificate.
   std::uint32_t worst = kNone;  ///< Its point; kNone if the maximum is 0.
   std::vector<CertificateGap>
       gaps;  ///< One per reason and bone; empty: `maximum` is for all points.
-  /// The largest difference of two sums of weights, at most 4e-6. It is rounding, and not part of
-  /// the bounds: a character at the distance d from the origin adds d times as much.
+  /// One per bone without a slide range that such weight crosses, ascending: a pose in which the
+  /// bone slides by d metres from bind may exceed a bound by d times its weight.
+  std::vector<SlideResidual> slide_residuals;
+  /// The largest difference of two sums of weights, also of those that append_difference() divided
+  /// by their sums, because skinning does not. Of rounding alone, at most 4e-6 where rows have it.
+  /// A pose in which the bones of a point are d metres from the model's origin may exceed a bound
+  /// by d times as much.
   double sum_residual = 0.0;
 };
 
