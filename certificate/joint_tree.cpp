@@ -46,8 +46,8 @@ Mat3d unit_axes(const Affine3d& model_from_bone) {
   return axes;
 }
 
-/// Lane 0 is the closed form, where s is 1 and hinges turn about bind. The fitted lane begins as
-/// that of s = 0.
+/// Lane 0 is the closed form, where s is 1 and hinges turn about bind. Then s goes from 1 towards the
+/// cosine of each joint's largest angle, or to 0 where that is negative; then it is 0 everywhere.
 void fill_turn(PreparedJoint& joint) {
   const double half = std::min(joint.half_range(), kPi);
   joint.middle_cosine = std::cos(joint.middle());
@@ -55,9 +55,12 @@ void fill_turn(PreparedJoint& joint) {
   joint.half_cosine = std::cos(half);
   joint.half_sine = std::sin(half);
   joint.squared_chord = 4.0 * std::sin(0.5 * half) * std::sin(0.5 * half);
-  for (int lane = 1; lane < kFittedLane; ++lane)
-    joint.set_lane(1.0 - static_cast<double>(lane - 1) / (kFittedLane - 2), lane, joint.turn);
-  joint.set_lane(0.0, kFittedLane, joint.turn);
+  for (int lane = 1; lane < kZeroLane; ++lane) {
+    const double part = static_cast<double>(lane) / (kZeroLane - 1);
+    joint.set_lane(1.0 - part * (1.0 - std::max(0.0, joint.half_cosine)), lane, joint.turn);
+  }
+  joint.set_lane(0.0, kZeroLane, joint.turn);
+  joint.set_lane(0.0, kFittedLane, joint.turn);  // set anew for each point
   joint.largest_turn = std::min(std::max(std::abs(joint.lower), std::abs(joint.upper)), kPi);
   joint.turn.cosine[0] = 1.0;
   joint.turn.sine[0] = 0.0;

@@ -11,10 +11,10 @@
 namespace sunder {
 namespace certificate {
 
-/// Values of s that are tried for all points: the closed form, steps from 1 to 0 that all joints of
-/// a point share, and in the last lane for each joint the best one if it alone moved.
+/// Choices of s that are tried for all points: the closed form, parts of the way from 1 down to the
+/// cosine, 0, and in the last lane for each joint the best one if it alone moved.
 inline constexpr int kLanes = 8;
-inline constexpr int kFittedLane = kLanes - 1;
+inline constexpr int kZeroLane = kLanes - 2, kFittedLane = kLanes - 1;
 
 /// How far from their common sum two sums of weights may be and count as equal.
 inline constexpr double kSumTolerance = 4e-6;
