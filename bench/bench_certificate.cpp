@@ -152,8 +152,9 @@ int main(int argc, char** argv) {
                                      {"chain of 3 balls", false, {0, 0, 1, 2}},
                                      {"fork of 3 balls", false, {0, 0, 1, 1}},
                                      {"chain of 4 hinges", true, {0, 0, 1, 2, 3}}};
-  std::printf("| joints | points | angle | coarse: quartiles; largest | refined | least found | "
-              "at most | unfinished | broken |\n|---|---|---|---|---|---|---|---|---|\n");
+  std::printf(
+      "| joints | points | angle | coarse: quartiles; largest | refined | least found | "
+      "at most | unfinished | broken |\n|---|---|---|---|---|---|---|---|---|\n");
   int broken = 0;
   for (const Shape& shape : shapes)
     for (const Rows rows : {Rows::weights, Rows::edge})

@@ -27,8 +27,7 @@ double kept(double angle, double strain) {
 /// Angle of the rotation between two others.
 double angle_between(const Mat3d& a, const Mat3d& b) {
   const Mat3d turn = multiply(a, Mat3d(b.transpose()));
-  const Vec3d twice_sine(turn(2, 1) - turn(1, 2), turn(0, 2) - turn(2, 0),
-                         turn(1, 0) - turn(0, 1));
+  const Vec3d twice_sine(turn(2, 1) - turn(1, 2), turn(0, 2) - turn(2, 0), turn(1, 0) - turn(0, 1));
   return std::atan2(norm(twice_sine), trace(turn) - 1.0);
 }
 
@@ -107,8 +106,7 @@ class BlendBound {
     double sum = 0;
     for (std::size_t i = 0; i < n; ++i) {
       const Way way = way_to_end(r * n + i, i);
-      const double across =
-          i == j ? 0.0 : ways_[i * n + j].angle + ends_[i].angle + ends_[j].angle;
+      const double across = i == j ? 0.0 : ways_[i * n + j].angle + ends_[i].angle + ends_[j].angle;
       const double fork = 0.5 * (along.angle + way.angle - across);
       const double angle =
           place <= fork ? way.angle - place : way.angle + place - 2 * std::max(fork, 0.0);
@@ -133,8 +131,8 @@ struct BlendWork {
     const std::size_t first = task * kTaskPoints;
     const std::size_t end = std::min(first + kTaskPoints, self.bounds->size());
     for (std::size_t point = first; point < end; ++point)
-      (*self.bounds)[point] = self.scratch[task].of(
-          *self.tree, row_of(self.blends->points, point), at_bind_of(*self.blends, point));
+      (*self.bounds)[point] = self.scratch[task].of(*self.tree, row_of(self.blends->points, point),
+                                                    at_bind_of(*self.blends, point));
   }
 };
 

@@ -1,4 +1,5 @@
-// Blended matrices whose parts are not the identity at bind, because skins have matrices of their own.
+// Blended matrices whose parts are not the identity at bind, because skins have matrices of their
+// own.
 
 #include "certificate/blend_matrices.h"
 

@@ -62,9 +62,8 @@ void run_tasks(const JointTree::State& tree, BoundWork& work, const ParallelFor&
   for (std::size_t point = 0; point < points; ++point)
     most_terms = std::max(most_terms, row_of(*work.rows, point).size());
   for (std::size_t i = 0; i < count; ++i)
-    work.tasks.push_back(
-        {points * i / count, points * (i + 1) / count,
-         PointBound(tree, most_terms, kSumTolerance)});
+    work.tasks.push_back({points * i / count, points * (i + 1) / count,
+                          PointBound(tree, most_terms, kSumTolerance)});
   if (count == 1) return BoundWork::run(&work, 0);
   parallel_for.run(parallel_for.context, static_cast<std::uint32_t>(count), &BoundWork::run, &work);
 }

@@ -58,8 +58,7 @@ class InfluenceChooser {
         for (const bool is_handed : {false, true}) {
           if (is_handed && kept == original.size()) continue;
           if (is_handed && handed_.empty()) hand_over(vertex);
-          Choice choice =
-              make(vertex, is_handed ? handed_[kept - 1] : largest(vertex, kept), bits);
+          Choice choice = make(vertex, is_handed ? handed_[kept - 1] : largest(vertex, kept), bits);
           if (choice.bound <= budget_.maximum_error) return choice;
           if (best.influences.empty() || choice.bound < best.bound) best = std::move(choice);
         }

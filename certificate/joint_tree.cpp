@@ -46,8 +46,9 @@ Mat3d unit_axes(const Affine3d& model_from_bone) {
   return axes;
 }
 
-/// Lane 0 is the closed form, where s is 1 and hinges turn about bind. Then s goes from 1 towards the
-/// cosine of each joint's largest angle, or to 0 where that is negative; then it is 0 everywhere.
+/// Lane 0 is the closed form, where s is 1 and hinges turn about bind. Then s goes from 1 towards
+/// the cosine of each joint's largest angle, or to 0 where that is negative; then it is 0
+/// everywhere.
 void fill_turn(PreparedJoint& joint) {
   const double half = std::min(joint.half_range(), kPi);
   joint.middle_cosine = std::cos(joint.middle());

@@ -44,7 +44,8 @@ class RefinedBound {
     for (const PathJoint& joint : path_) at_bind_ += joint.x;
   }
 
-  /// Minimises joint by joint from several starts, of which one has the s of joints that move alone.
+  /// Minimises joint by joint from several starts, of which one has the s of joints that move
+  /// alone.
   double minimise() {
     fit();
     double least = descend();
@@ -88,8 +89,8 @@ class RefinedBound {
     return value;
   }
 
-  /// Golden section over s of one joint, of which the bound is a convex function. Keeps the old s if
-  /// it is better.
+  /// Golden section over s of one joint, of which the bound is a convex function. Keeps the old s
+  /// if it is better.
   double minimise_along(std::size_t joint, double value) {
     constexpr double kGolden = 0.6180339887498949;
     const double old = s_[joint];

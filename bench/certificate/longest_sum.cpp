@@ -1,8 +1,8 @@
 // A cell holds rotations: those of a ball are vectors along the axis with the angle as length, of
 // which only those across its arm count where nothing below the joint moves; those of a hinge are
 // angles. One joint below the top takes its best rotation in closed form. The exponential map does
-// not lengthen distances, so a cell of the half diagonal r turns an arm by at most r away from where
-// its centre puts it.
+// not lengthen distances, so a cell of the half diagonal r turns an arm by at most r away from
+// where its centre puts it.
 
 #include "bench/certificate/longest_sum.h"
 
@@ -94,7 +94,8 @@ class Search {
   }
 
   /// Halves a cell where that narrows the sum most. The half with the larger bound is tried first.
-  void split(const Cell& cell, std::vector<std::pair<double, Cell>>& open, LongestSum& result) const {
+  void split(const Cell& cell, std::vector<std::pair<double, Cell>>& open,
+             LongestSum& result) const {
     std::size_t joint = 0;
     double widest = -1;
     const auto lengths = lengths_of(cell);

@@ -11,7 +11,7 @@ namespace sunder::bench {
 struct SumJoint {
   std::uint32_t parent = 0;  ///< Of a smaller index; the first joint is the top and does not turn.
   bool is_hinge = false;
-  double angle = 0.0;              ///< A ball turns by at most so much, a hinge to either side.
+  double angle = 0.0;                ///< A ball turns by at most so much, a hinge to either side.
   Eigen::Vector3d axis = {1, 0, 0};  ///< Hinge; unit length.
   Eigen::Vector3d own = {0, 0, 0};
 };

@@ -197,8 +197,7 @@ TEST(BlendBound, of_a_vertex_has_the_matrices_of_its_skin) {
   const ModelPose bind = *bind_pose(character);
   Skin other = character.skins[0];  // its second bone is turned against the bind pose
   other.bone_from_bind[1].linear() =
-      other.bone_from_bind[1].linear() *
-      Eigen::AngleAxisf(2.8f, Vec3f(0, 0, 1)).toRotationMatrix();
+      other.bone_from_bind[1].linear() * Eigen::AngleAxisf(2.8f, Vec3f(0, 0, 1)).toRotationMatrix();
   character.skins.push_back(other);
   Mesh& mesh = character.meshes[0];
   mesh.weights = {};

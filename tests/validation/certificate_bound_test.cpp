@@ -409,8 +409,7 @@ TEST(DeviationBound, is_attained_where_one_ball_joint_is_crossed) {
     SkinDifferences rows;
     test::append_row({{0, -m, x0}, {1, m, x1}}, rows);
     const Vec3d centre(0, 1, 0);
-    const double expected =
-        longest_sum(Vec3d(x0 + m * centre), Vec3d(x1 - m * centre), ball.angle);
+    const double expected = longest_sum(Vec3d(x0 + m * centre), Vec3d(x1 - m * centre), ball.angle);
     for (const std::uint32_t refined : {0u, 1u})
       EXPECT_NEAR(certify(rig, rows, {0, refined}).maximum, expected, 1e-8 * expected)
           << i << ", angle " << ball.angle;
@@ -439,9 +438,8 @@ TEST(WorstPose, is_not_below_random_poses_where_bones_stretch) {
       ASSERT_LE(pose->found, certificate.bound[i] + kRounding);
       if (certificate.bound[i] > 1e-9) ratios.push_back(pose->found / certificate.bound[i]);
       for (int k = 0; k < 200; ++k)
-        ASSERT_LE(
-            scene.pairs[i].deviation(scene.rig, test::random_pose_within(random, scene.rig)),
-            pose->found + kRounding)
+        ASSERT_LE(scene.pairs[i].deviation(scene.rig, test::random_pose_within(random, scene.rig)),
+                  pose->found + kRounding)
             << "rig " << rigs << ", pair " << i;
     }
   }

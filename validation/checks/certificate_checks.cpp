@@ -48,8 +48,7 @@ std::string text_of_residuals(const RowReader& reader, const DeviationCertificat
   for (const SlideResidual& residual : certificate.slide_residuals) {
     char number[32];
     std::snprintf(number, sizeof number, "%.2g", residual.weight);
-    text += " The translation of '" +
-            reader.source().character.skeleton.bones[residual.bone].name +
+    text += " The translation of '" + reader.source().character.skeleton.bones[residual.bone].name +
             "' has no range: it adds up to " + number + " m per metre, by rounded weights.";
   }
   return text;
@@ -116,11 +115,11 @@ void certify_cracks(const RowReader& reader, const JointTree& tree, const CrackR
   if (certificate->worst != kNone)
     if (const auto pose = find_worst_pose(tree, cracks.rows, certificate->worst))
       found = pose->found;
-  findings.add_finding(
-      Code::cert_crack, Severity::note, Evidence::certified,
-      text_of_bracket(found, certificate->maximum) + text_of_gaps(reader, certificate->gaps) +
-          text_of_residuals(reader, *certificate),
-      std::move(places), certificate->maximum);
+  findings.add_finding(Code::cert_crack, Severity::note, Evidence::certified,
+                       text_of_bracket(found, certificate->maximum) +
+                           text_of_gaps(reader, certificate->gaps) +
+                           text_of_residuals(reader, *certificate),
+                       std::move(places), certificate->maximum);
 }
 
 /// The linear part at bind of what moves the term of a bone, of a vertex of the target.
@@ -138,7 +137,7 @@ Mat3d matrix_at_bind(std::span<const Influence> influences, std::span<const Driv
 
 /// The vertices whose deviation has the largest bounds, as skinned points of their own.
 SkinBlends worst_vertices(const RowReader& reader, const CertifiedRows& rows,
-                               const ValidationReport& report, std::vector<Index>& vertices) {
+                          const ValidationReport& report, std::vector<Index>& vertices) {
   for (Index v = 0; v < report.vertex_bound.size(); ++v)
     if (report.vertex_bound[v] > 0.0f) vertices.push_back(v);
   if (vertices.size() > kMostBlends) {

@@ -192,8 +192,8 @@ struct SearchOptions {
                                                            std::uint32_t point,
                                                            const SearchOptions& options = {});
 
-/// Skinned points with the linear parts of what moves them. A skin whose bind matrices are not those
-/// of the bind pose (skins may differ) has parts that are not the identity at bind.
+/// Skinned points with the linear parts of what moves them. A skin whose bind matrices are not
+/// those of the bind pose (skins may differ) has parts that are not the identity at bind.
 struct SkinBlends {
   SkinDifferences points;      ///< Rows with m >= 0 that sum to one.
   std::vector<Mat3d> at_bind;  ///< One per term, or none: the identity everywhere.
@@ -242,8 +242,8 @@ struct CertifiedInfluences {
   std::uint32_t above_maximum_error = 0;  ///< Number of vertices that the budget cannot keep below.
 };
 
-/// Chooses per vertex the smallest number of influences, and for these the fewest bits, at which one
-/// of two choices has a certificate of the change of at most the maximum error: the largest
+/// Chooses per vertex the smallest number of influences, and for these the fewest bits, at which
+/// one of two choices has a certificate of the change of at most the maximum error: the largest
 /// influences, divided by their sum; or those that are left when one after another gives its weight
 /// to the bone that moves most like its own. If none has, the smallest bound within the budget is
 /// taken and counted. Weight that crosses a slide without a range has no bound here, however small.
