@@ -6,7 +6,10 @@
 #include <cmath>
 #include <new>
 
+#include "certificate/blend_matrices.h"
 #include "certificate/joint_path.h"
+#include "certificate/polar.h"
+#include "core/internal/ordered.h"
 
 namespace sunder {
 namespace certificate {
@@ -16,58 +19,55 @@ constexpr double kSafety = 1e-10;
 constexpr double kLargestStrain = 50.0;  // of the logarithm: more says nothing more
 constexpr std::size_t kTaskPoints = 1024;
 
-/// Sums of what the joints between two nodes do.
-struct Way {
-  double angle = 0.0;
-  double strain = 0.0;
-};
-
-Way way_between(const JointTree::State& tree, std::uint32_t a, std::uint32_t b) {
-  std::uint32_t meet_a = a, meet_b = b;
-  while (meet_a != meet_b)
-    (meet_a > meet_b ? meet_a : meet_b) = tree.nodes[std::max(meet_a, meet_b)].parent;
-  Way way;
-  for (std::uint32_t node : {a, b})
-    for (; node != meet_a; node = tree.nodes[node].parent) {
-      way.angle += tree.nodes[node].largest_turn;
-      way.strain += tree.nodes[node].strain;
-    }
-  return way;
-}
-
 /// The share of a bone's weight that no pose within the angle takes away, as seen from a reference.
 double kept(double angle, double strain) {
   return std::cos(std::min(angle, std::numbers::pi)) - std::expm1(std::min(strain, kLargestStrain));
 }
 
-/// Ways between the bones of a point; reserved once.
+/// Angle of the rotation between two others.
+double angle_between(const Mat3d& a, const Mat3d& b) {
+  const Mat3d turn = multiply(a, Mat3d(b.transpose()));
+  const Vec3d twice_sine(turn(2, 1) - turn(1, 2), turn(0, 2) - turn(2, 0), turn(1, 0) - turn(0, 1));
+  return std::atan2(norm(twice_sine), trace(turn) - 1.0);
+}
+
+/// Ways between the bones of a point; reserved once. The matrix that a skin has at bind is one more
+/// joint below the bone, which does not move.
 class BlendBound {
  public:
-  explicit BlendBound(std::size_t terms) { ways_.resize(terms * terms); }
+  explicit BlendBound(std::size_t terms) {
+    ways_.resize(terms * terms);
+    ends_.resize(terms);
+  }
 
-  double of(const JointTree::State& tree, std::span<const SkinTerm> terms) {
+  double of(const JointTree::State& tree, std::span<const SkinTerm> terms,
+            std::span<const Mat3d> at_bind) {
+    if (!relative_to_bind(terms, at_bind, relative_)) return -1.0;
     const std::size_t n = terms.size();
     const auto node = [&](std::size_t i) { return tree.node_of_bone[terms[i].bone]; };
     double sum = 0;
     for (std::size_t i = 0; i < n; ++i) {
-      ways_[i * n + i] = {};
+      ways_[i * n + i] = ends_[i] = {};
       for (std::size_t j = 0; j < i; ++j)
         ways_[i * n + j] = ways_[j * n + i] = way_between(tree, node(i), node(j));
       sum += terms[i].m;
     }
+    split_matrices();
     double best = -1.0;
     std::size_t reference = 0;
     for (std::size_t r = 0; r < n; ++r) {
+      turn_ends_from(r);
       const double value = from_place(terms, r, r, 0.0) * tree.nodes[node(r)].shrink_above;
       if (value > best) {
         best = value;
         reference = r;
       }
     }
+    turn_ends_from(reference);
     const double shrink = tree.nodes[node(reference)].shrink_above;
     for (std::size_t j = 0; j < n; ++j) {
       if (j == reference) continue;
-      const Way& way = ways_[reference * n + j];
+      const Way way = way_to_end(reference * n + j, j);
       const double w = terms[reference].m, v = terms[j].m;
       const double place = std::atan2(v * std::sin(way.angle), w + v * std::cos(way.angle));
       if (place <= 0 || place >= way.angle) continue;
@@ -78,15 +78,36 @@ class BlendBound {
   }
 
  private:
+  /// Rotations and strains of the matrices at bind.
+  void split_matrices() {
+    for (std::size_t i = 0; i < relative_.size(); ++i) {
+      const Polar parts = polar(relative_[i]);
+      ends_[i].strain = std::log1p(std::max(parts.largest - 1.0, 1.0 - parts.least));
+      relative_[i] = parts.rotation;
+    }
+  }
+
+  /// Angles of the matrices at bind, seen from that of a reference.
+  void turn_ends_from(std::size_t reference) {
+    for (std::size_t i = 0; i < relative_.size(); ++i)
+      ends_[i].angle = angle_between(relative_[i], relative_[reference]);
+  }
+
+  /// A way with its end below a bone.
+  [[nodiscard]] Way way_to_end(std::size_t way, std::size_t bone) const {
+    return {ways_[way].angle + ends_[bone].angle, ways_[way].strain + ends_[bone].strain};
+  }
+
   /// The bound seen from a place between bones r and j, at an angle from r.
   [[nodiscard]] double from_place(std::span<const SkinTerm> terms, std::size_t r, std::size_t j,
                                   double place) const {
     const std::size_t n = terms.size();
-    const Way& along = ways_[r * n + j];
+    const Way along = way_to_end(r * n + j, j);
     double sum = 0;
     for (std::size_t i = 0; i < n; ++i) {
-      const Way& way = ways_[r * n + i];
-      const double fork = 0.5 * (along.angle + way.angle - ways_[i * n + j].angle);
+      const Way way = way_to_end(r * n + i, i);
+      const double across = i == j ? 0.0 : ways_[i * n + j].angle + ends_[i].angle + ends_[j].angle;
+      const double fork = 0.5 * (along.angle + way.angle - across);
       const double angle =
           place <= fork ? way.angle - place : way.angle + place - 2 * std::max(fork, 0.0);
       sum += terms[i].m * kept(angle, way.strain + (place > 0 ? along.strain : 0.0));
@@ -95,11 +116,13 @@ class BlendBound {
   }
 
   std::vector<Way> ways_;
+  std::vector<Way> ends_;        // per term: its matrix at bind
+  std::vector<Mat3d> relative_;  // the same, as rotations
 };
 
 struct BlendWork {
   const JointTree::State* tree = nullptr;
-  const SkinDifferences* points = nullptr;
+  const SkinBlends* blends = nullptr;
   std::vector<double>* bounds = nullptr;
   mutable std::vector<BlendBound> scratch;
 
@@ -108,7 +131,8 @@ struct BlendWork {
     const std::size_t first = task * kTaskPoints;
     const std::size_t end = std::min(first + kTaskPoints, self.bounds->size());
     for (std::size_t point = first; point < end; ++point)
-      (*self.bounds)[point] = self.scratch[task].of(*self.tree, row_of(*self.points, point));
+      (*self.bounds)[point] = self.scratch[task].of(*self.tree, row_of(self.blends->points, point),
+                                                    at_bind_of(*self.blends, point));
   }
 };
 
@@ -131,10 +155,11 @@ Status check_weights(const SkinDifferences& points) {
 }  // namespace
 }  // namespace certificate
 
-Result<std::vector<double>> certify_blend(const JointTree& tree, const SkinDifferences& points,
+Result<std::vector<double>> certify_blend(const JointTree& tree, const SkinBlends& blends,
                                           const ParallelFor& parallel_for) {
   using namespace certificate;
-  if (const Status status = check_rows(tree.state(), points); !status) return status;
+  const SkinDifferences& points = blends.points;
+  if (const Status status = check_blends(tree.state(), blends); !status) return status;
   if (const Status status = check_weights(points); !status) return status;
   try {
     std::vector<double> bounds(points.first.size() - 1);
@@ -143,7 +168,7 @@ Result<std::vector<double>> certify_blend(const JointTree& tree, const SkinDiffe
       most_terms = std::max(most_terms, row_of(points, point).size());
     const std::size_t tasks = (bounds.size() + kTaskPoints - 1) / kTaskPoints;
     const bool is_parallel = parallel_for.run != nullptr;
-    BlendWork work{&tree.state(), &points, &bounds, {}};
+    BlendWork work{&tree.state(), &blends, &bounds, {}};
     work.scratch.assign(tasks, BlendBound(most_terms));
     if (is_parallel)
       parallel_for.run(parallel_for.context, static_cast<std::uint32_t>(tasks), &BlendWork::run,

@@ -19,7 +19,17 @@ constexpr std::uint64_t kMostRefined = 8;  // times what is asked for
 struct BoundTask {
   std::size_t first = 0, end = 0;
   PointBound bound_of;
+  std::vector<SlideResidual> residuals = {};
 };
+
+/// Keeps the largest weight of each bone, ascending by bone; of equal ones the first point.
+void add_residual(const SlideResidual& residual, std::vector<SlideResidual>& residuals) {
+  const auto at = std::ranges::lower_bound(residuals, residual.bone, {}, &SlideResidual::bone);
+  if (at == residuals.end() || at->bone != residual.bone)
+    residuals.insert(at, residual);
+  else if (residual.weight > at->weight)
+    *at = residual;
+}
 
 struct BoundWork {
   const SkinDifferences* rows = nullptr;
@@ -32,7 +42,13 @@ struct BoundWork {
     BoundTask& task = self.tasks[index];
     for (std::size_t point = task.first; point < task.end; ++point) {
       const auto terms = row_of(*self.rows, point);
-      (*self.bound)[point] = terms.empty() ? 0.0 : task.bound_of.of(terms) + self.rounding;
+      double& bound = (*self.bound)[point];
+      bound = terms.empty() ? 0.0 : task.bound_of.of(terms) + self.rounding;
+      if (terms.empty() || !std::isfinite(bound)) continue;
+      for (SlideResidual residual : task.bound_of.crossed()) {
+        residual.point = static_cast<std::uint32_t>(point);
+        add_residual(residual, task.residuals);
+      }
     }
   }
 };
@@ -46,8 +62,8 @@ void run_tasks(const JointTree::State& tree, BoundWork& work, const ParallelFor&
   for (std::size_t point = 0; point < points; ++point)
     most_terms = std::max(most_terms, row_of(*work.rows, point).size());
   for (std::size_t i = 0; i < count; ++i)
-    work.tasks.push_back(
-        {points * i / count, points * (i + 1) / count, PointBound(tree, most_terms)});
+    work.tasks.push_back({points * i / count, points * (i + 1) / count,
+                          PointBound(tree, most_terms, kSumTolerance)});
   if (count == 1) return BoundWork::run(&work, 0);
   parallel_for.run(parallel_for.context, static_cast<std::uint32_t>(count), &BoundWork::run, &work);
 }
@@ -84,8 +100,12 @@ void refine_worst(const JointTree::State& tree, const BoundWork& work, std::uint
   }
 }
 
-void summarise(const JointTree::State& tree, const SkinDifferences& rows,
+void summarise(const JointTree::State& tree, const SkinDifferences& rows, const BoundWork& work,
                DeviationCertificate& certificate) {
+  for (const BoundTask& task : work.tasks)
+    for (const SlideResidual& residual : task.residuals)
+      add_residual(residual, certificate.slide_residuals);
+  certificate.sum_residual = rows.divided_sum;
   for (std::uint32_t point = 0; point < certificate.bound.size(); ++point) {
     const auto terms = row_of(rows, point);
     const double bound = certificate.bound[point];
@@ -123,7 +143,7 @@ Result<DeviationCertificate> certify_deviation(const JointTree& tree,
     BoundWork work{&differences, options.rounding, &certificate.bound, {}};
     run_tasks(tree.state(), work, parallel_for);
     refine_worst(tree.state(), work, options.refined_points, certificate.bound);
-    summarise(tree.state(), differences, certificate);
+    summarise(tree.state(), differences, work, certificate);
     return certificate;
   } catch (const std::bad_alloc&) {
     return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");

@@ -10,6 +10,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "certificate/blend_matrices.h"
 #include "certificate/pose_search.h"
 
 namespace sunder {
@@ -51,10 +52,19 @@ struct Blend {
   Vec3d direction = Vec3d::UnitX();
 };
 
-Blend blend_of(const PoseSearch& search, std::span<const SkinTerm> points) {
+/// @param relative  see relative_to_bind().
+Vec3d at_bind(std::span<const Mat3d> relative, std::size_t term, const Vec3d& direction) {
+  return relative.empty() ? direction : Vec3d(multiply(relative[term], direction));
+}
+
+Blend blend_of(const PoseSearch& search, std::span<const SkinTerm> points,
+               std::span<const Mat3d> relative) {
   const std::vector<Affine3d> matrices = search.model_from_bind();
   Mat3d sum = Mat3d::Zero();
-  for (const SkinTerm& term : points) sum += term.m * matrices[term.bone].linear();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Mat3d linear = points[i].m * matrices[points[i].bone].linear();
+    sum += relative.empty() ? linear : Mat3d(multiply(linear, relative[i]));
+  }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> squares(sum.transpose() * sum);
   const Vec3d direction = normalized(Vec3d(squares.eigenvectors().col(0)));
   return {norm(multiply(sum, direction)), direction};
@@ -62,22 +72,23 @@ Blend blend_of(const PoseSearch& search, std::span<const SkinTerm> points) {
 
 /// Turns by turns: the direction that is shrunk most, and the pose that shrinks it more.
 FoundPose collapse_pose_of(const JointTree::State& tree, std::span<const SkinTerm> points,
-                           const SearchOptions& options) {
+                           std::span<const Mat3d> relative, const SearchOptions& options) {
   std::vector<SkinTerm> terms(points.begin(), points.end());
   for (SkinTerm& term : terms) term.m = 0;
   std::mt19937_64 random(options.seed);
   PoseSearch search(tree, terms, PoseSearch::Goal::shortest);
   FoundPose best = search.pose();
-  best.found = blend_of(search, points).smallest;
+  best.found = blend_of(search, points, relative).smallest;
   for (std::uint32_t start = 0; start <= options.restarts; ++start) {
     if (start > 0) search.start_at_random(random);
-    Blend blend = blend_of(search, points);
+    Blend blend = blend_of(search, points, relative);
     for (int round = 0; round < kRounds; ++round) {
       const double before = blend.smallest;
-      for (std::size_t i = 0; i < terms.size(); ++i) terms[i].x = points[i].m * blend.direction;
+      for (std::size_t i = 0; i < terms.size(); ++i)
+        terms[i].x = points[i].m * at_bind(relative, i, blend.direction);
       search.set_positions(terms);
       search.improve_fully();
-      blend = blend_of(search, points);
+      blend = blend_of(search, points, relative);
       if (blend.smallest < best.found) {
         best = search.pose();
         best.found = blend.smallest;
@@ -119,16 +130,24 @@ Result<FoundPose> find_worst_pose(const JointTree& tree, const SkinDifferences& 
   }
 }
 
-Result<FoundPose> find_collapse_pose(const JointTree& tree, const SkinDifferences& points,
+Result<FoundPose> find_collapse_pose(const JointTree& tree, const SkinBlends& blends,
                                      std::uint32_t point, const SearchOptions& options) {
   using namespace certificate;
   try {
-    if (const Status status = check_point(tree.state(), points, point); !status) return status;
-    const auto terms = row_of(points, point);
+    if (const Status status = check_blends(tree.state(), blends); !status) return status;
+    if (const Status status = check_point(tree.state(), blends.points, point); !status)
+      return status;
+    const auto terms = row_of(blends.points, point);
+    std::vector<Mat3d> relative;
+    if (!relative_to_bind(terms, at_bind_of(blends, point), relative))
+      return Status::failure(StatusCode::unsupported_feature, point,
+                             "point %u: its blended matrix is flat at bind, or parts of it mirror "
+                             "each other",
+                             point);
     if (const std::uint32_t bone = unscaled_bone(tree.state(), terms); bone != kNone)
       return Status::failure(StatusCode::unsupported_feature, point,
                              "point %u: bone %u scales without a range", point, bone);
-    return collapse_pose_of(tree.state(), terms, options);
+    return collapse_pose_of(tree.state(), terms, relative, options);
   } catch (const std::bad_alloc&) {
     return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
   }

@@ -9,8 +9,8 @@
 #include <new>
 
 #include <Eigen/LU>
-#include <Eigen/SVD>
 
+#include "certificate/polar.h"
 #include "core/internal/ordered.h"
 
 namespace sunder {
@@ -41,17 +41,6 @@ struct JointFrame {
   double slack = 0.0;  // radians that the rounding of bind matrices may add
   double scale_lower = 0.0, scale_upper = 0.0;
 };
-
-struct Polar {
-  Mat3d rotation;
-  double least = 0.0, largest = 0.0;
-};
-
-Polar polar(const Mat3d& matrix) {
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  return {svd.matrixU() * svd.matrixV().transpose(), svd.singularValues()[2],
-          svd.singularValues()[0]};
-}
 
 /// The value at key `key`; part 0, 1, 2: in-tangent, value, out-tangent of a cubic spline.
 Vec4d key_value(const Channel& channel, std::size_t key, std::size_t part) {

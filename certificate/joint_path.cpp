@@ -32,6 +32,19 @@ std::vector<PathJoint> make_path(const JointTree::State& tree, std::span<const S
   return path;
 }
 
+Way way_between(const JointTree::State& tree, std::uint32_t a, std::uint32_t b) {
+  std::uint32_t meet_a = a, meet_b = b;
+  while (meet_a != meet_b)
+    (meet_a > meet_b ? meet_a : meet_b) = tree.nodes[std::max(meet_a, meet_b)].parent;
+  Way way;
+  for (std::uint32_t node : {a, b})
+    for (; node != meet_a; node = tree.nodes[node].parent) {
+      way.angle += tree.nodes[node].largest_turn;
+      way.strain += tree.nodes[node].strain;
+    }
+  return way;
+}
+
 bool find_gap(const JointTree::State& tree, std::span<const SkinTerm> terms, PathGap& gap) {
   if (terms.empty()) return false;
   double sum = 0;

@@ -75,6 +75,13 @@ struct PathJoint {
 [[nodiscard]] std::vector<PathJoint> make_path(const JointTree::State& tree,
                                                std::span<const SkinTerm> terms);
 
+/// Sums of what the joints between two nodes do.
+struct Way {
+  double angle = 0.0;
+  double strain = 0.0;
+};
+[[nodiscard]] Way way_between(const JointTree::State& tree, std::uint32_t a, std::uint32_t b);
+
 /// The reason why a joint on the way to the top, or above it, rules out a certificate.
 struct PathGap {
   CertificateGap::Reason reason = CertificateGap::Reason::unequal_sums;

@@ -46,22 +46,26 @@ Mat3d unit_axes(const Affine3d& model_from_bone) {
   return axes;
 }
 
-/// Lane 0 is the closed form, where s is 1 and hinges turn about bind; in the others s goes from 1
-/// towards the cosine of the largest angle, or to 0 where that is negative.
+/// Lane 0 is the closed form, where s is 1 and hinges turn about bind. Then s goes from 1 towards
+/// the cosine of each joint's largest angle, or to 0 where that is negative; then it is 0
+/// everywhere.
 void fill_turn(PreparedJoint& joint) {
   const double half = std::min(joint.half_range(), kPi);
-  const double middle = joint.middle();
-  for (int lane = 0; lane < kLanes; ++lane) {
-    const double part = static_cast<double>(lane) / (kLanes - 1);
-    const double s = 1.0 - part * (1.0 - std::max(0.0, std::cos(half)));
-    joint.turn.cosine[lane] = s * std::cos(middle);
-    joint.turn.sine[lane] = s * std::sin(middle);
-    joint.turn.radius[lane] = distance_to_shrunk(s, half);
+  joint.middle_cosine = std::cos(joint.middle());
+  joint.middle_sine = std::sin(joint.middle());
+  joint.half_cosine = std::cos(half);
+  joint.half_sine = std::sin(half);
+  joint.squared_chord = 4.0 * std::sin(0.5 * half) * std::sin(0.5 * half);
+  for (int lane = 1; lane < kZeroLane; ++lane) {
+    const double part = static_cast<double>(lane) / (kZeroLane - 1);
+    joint.set_lane(1.0 - part * (1.0 - std::max(0.0, joint.half_cosine)), lane, joint.turn);
   }
+  joint.set_lane(0.0, kZeroLane, joint.turn);
+  joint.set_lane(0.0, kFittedLane, joint.turn);  // set anew for each point
   joint.largest_turn = std::min(std::max(std::abs(joint.lower), std::abs(joint.upper)), kPi);
   joint.turn.cosine[0] = 1.0;
   joint.turn.sine[0] = 0.0;
-  joint.turn.radius[0] = distance_to_shrunk(1.0, joint.largest_turn);
+  joint.turn.radius[0] = 2.0 * std::sin(0.5 * joint.largest_turn);
 }
 
 /// Largest relative change of a length when the joint is crossed in either direction.
@@ -121,9 +125,21 @@ Status check_sizes(const Skeleton& skeleton, const ModelPose& bind, const JointL
 
 }  // namespace
 
-double distance_to_shrunk(double s, double angle) {
-  const double sine = std::sin(0.5 * angle);
-  return std::sqrt((1.0 - s) * (1.0 - s) + 4.0 * s * sine * sine);
+double best_shrink(const PreparedJoint& joint, const Vec3d& arm, const Vec3d& rest) {
+  Vec3d middle = joint.scale() * arm, away = -rest;
+  if (joint.is_hinge) {
+    const Vec3d along = dot(joint.axis, middle) * joint.axis, across = middle - along;
+    middle = joint.middle_cosine * across + joint.middle_sine * joint.axis.cross(across);
+    away -= along;
+  }
+  const double length = norm(middle);
+  if (length == 0) return 1.0;
+  const double along = dot(away, middle) / length;
+  const double aside = std::sqrt(std::max(0.0, squared_norm(away) - along * along));
+  const double whole = aside + length * joint.half_sine;
+  if (!(whole > 0)) return joint.half_cosine > 0 ? 1.0 : 0.0;
+  const double at = along + aside / whole * (length * joint.half_cosine - along);
+  return std::max(0.0, at / length);
 }
 
 }  // namespace certificate

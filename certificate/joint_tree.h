@@ -2,6 +2,7 @@
 
 #include <sunder/certificate/certificate.h>
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -10,11 +11,15 @@
 namespace sunder {
 namespace certificate {
 
-/// Numbers of parts of the way (of s from 1 down to the cosine) that are tried for all points.
-inline constexpr int kLanes = 6;
+/// Choices of s that are tried for all points: the closed form, parts of the way from 1 down to the
+/// cosine, 0, and in the last lane for each joint the best one if it alone moved.
+inline constexpr int kLanes = 8;
+inline constexpr int kZeroLane = kLanes - 2, kFittedLane = kLanes - 1;
 
 /// How far from their common sum two sums of weights may be and count as equal.
 inline constexpr double kSumTolerance = 4e-6;
+/// The same for sums of doubles that were divided by them.
+inline constexpr double kDividedSumTolerance = 1e-12;
 
 template <int lanes>
 using Lanes = Eigen::Array<double, lanes, 1>;
@@ -39,6 +44,9 @@ struct PreparedJoint {
   double slide_reach = 0.0;            ///< Around the middle.
   double lower = 0.0, upper = 0.0;     ///< Ball: 0 and the angle. Radians.
   double scale_lower = 1.0, scale_upper = 1.0;
+  double middle_cosine = 1.0, middle_sine = 0.0;  ///< Of middle().
+  double half_cosine = 1.0, half_sine = 0.0;      ///< Of half_range(), at most 180 degrees.
+  double squared_chord = 0.0;                     ///< 2 - 2 half_cosine, exact for small angles.
   JointTurn<kLanes> turn;
   double growth_above = 1.0;            ///< Product of largest scales from the root to this joint.
   double shrink_above = 1.0;            ///< Product of smallest scales.
@@ -50,11 +58,26 @@ struct PreparedJoint {
   [[nodiscard]] double scale_half() const { return 0.5 * (scale_upper - scale_lower); }
   [[nodiscard]] double middle() const { return is_hinge ? 0.5 * (lower + upper) : 0.0; }
   [[nodiscard]] double half_range() const { return is_hinge ? 0.5 * (upper - lower) : upper; }
+
+  /// The largest distance of a unit vector, turned within the range, from s >= 0 times its middle:
+  /// sqrt(s^2 - 2 s cos(half range) + 1), exact for small angles.
+  [[nodiscard]] double distance_to_shrunk(double s) const {
+    return std::sqrt((1.0 - s) * (1.0 - s) + s * squared_chord);
+  }
+  /// Sets one lane of a turn about the middle of the range. Any s >= 0 is valid.
+  template <int lanes>
+  void set_lane(double s, int lane, JointTurn<lanes>& of) const {
+    of.cosine[lane] = s * middle_cosine;
+    of.sine[lane] = s * middle_sine;
+    of.radius[lane] = distance_to_shrunk(s);
+  }
 };
 
-/// The largest distance of a rotated unit vector from s times its middle, for rotations of up to
-/// `angle`: sqrt(s^2 - 2 s cos(angle) + 1), stable for small angles. s >= 0.
-[[nodiscard]] double distance_to_shrunk(double s, double angle);
+/// The s with the least bound if this joint alone moves: the place where the straight way from
+/// -rest to the end of the turned arm meets the arm's middle.
+/// @param arm   from the joint's centre to the sum of what it moves.
+/// @param rest  the sum of everything else, seen from the joint's parent.
+[[nodiscard]] double best_shrink(const PreparedJoint& joint, const Vec3d& arm, const Vec3d& rest);
 
 }  // namespace certificate
 

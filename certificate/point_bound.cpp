@@ -27,45 +27,57 @@ double with_safety(const JointTree::State& tree, std::span<const SkinTerm> terms
   return kSafety * bound + kRounding * length;
 }
 
-/// A point's bound as a function of s at each of its joints. Any s in [0, 1] gives a valid one.
+/// The s that is best if the joint of a ball alone moves.
+/// @param at_bind  the sum of all terms there.
+template <int lanes>
+double fitted_shrink(const PreparedJoint& joint, const SubtreeBall<lanes>& ball, int lane,
+                     const Vec3d& at_bind) {
+  const Vec3d arm = Vec3d(ball.x[lane], ball.y[lane], ball.z[lane]) - ball.m * joint.centre;
+  return best_shrink(joint, arm, Vec3d(at_bind - arm + ball.m * joint.slide));
+}
+
+/// A point's bound as a function of s at each of its joints. Any s >= 0 gives a valid one.
 class RefinedBound {
  public:
   RefinedBound(const JointTree::State& tree, std::span<const SkinTerm> terms)
-      : tree_(tree), path_(make_path(tree, terms)), balls_(path_.size()) {
-    for (const PathJoint& joint : path_) turns_.emplace_back(tree.nodes[joint.node]);
+      : tree_(tree), path_(make_path(tree, terms)), balls_(path_.size()), s_(path_.size()) {
+    for (const PathJoint& joint : path_) at_bind_ += joint.x;
   }
 
-  /// Minimises joint by joint from several starts. Any s in [0, 1] is valid, so is the result.
+  /// Minimises joint by joint from several starts, of which one has the s of joints that move
+  /// alone.
   double minimise() {
-    double least = kInfinity;
+    fit();
+    double least = descend();
     for (const double part : {0.0, 0.5, 1.0}) {
-      for (Turn& turn : turns_) turn.s = 1.0 - part * (1.0 - std::max(0.0, turn.cosine));
+      for (std::size_t i = 0; i < path_.size(); ++i)
+        s_[i] = 1.0 - part * (1.0 - std::max(0.0, tree_.nodes[path_[i].node].half_cosine));
       least = std::min(least, descend());
     }
     return least;
   }
 
  private:
-  /// A joint's turn as a function of s, without trigonometric functions.
-  struct Turn {
-    explicit Turn(const PreparedJoint& joint)
-        : cosine(std::cos(std::min(joint.half_range(), std::numbers::pi))),
-          squared_chord(
-              std::pow(distance_to_shrunk(1.0, std::min(joint.half_range(), std::numbers::pi)), 2)),
-          middle_cosine(std::cos(joint.middle())),
-          middle_sine(std::sin(joint.middle())) {}
+  void start() {
+    for (std::size_t i = 0; i < path_.size(); ++i)
+      balls_[i].set(path_[i].node, path_[i].m, path_[i].x);
+  }
 
-    [[nodiscard]] JointTurn<1> at_s() const {
-      JointTurn<1> turn;
-      turn.cosine[0] = s * middle_cosine;
-      turn.sine[0] = s * middle_sine;
-      turn.radius[0] = std::sqrt((1.0 - s) * (1.0 - s) + s * squared_chord);
-      return turn;
+  void cross(std::size_t i) {
+    const PreparedJoint& joint = tree_.nodes[path_[i].node];
+    JointTurn<1> turn;
+    joint.set_lane(s_[i], 0, turn);
+    cross_joint(joint, turn, balls_[i]);
+    balls_[path_[i].parent] += balls_[i];
+  }
+
+  void fit() {
+    start();
+    for (std::size_t i = 0; i + 1 < path_.size(); ++i) {
+      s_[i] = fitted_shrink(tree_.nodes[path_[i].node], balls_[i], 0, at_bind_);
+      cross(i);
     }
-
-    double s = 1.0;
-    double cosine, squared_chord, middle_cosine, middle_sine;
-  };
+  }
 
   double descend() {
     double value = evaluate();
@@ -77,13 +89,14 @@ class RefinedBound {
     return value;
   }
 
-  /// Golden section over s of one joint. Keeps the old s if it is better.
+  /// Golden section over s of one joint, of which the bound is a convex function. Keeps the old s
+  /// if it is better.
   double minimise_along(std::size_t joint, double value) {
     constexpr double kGolden = 0.6180339887498949;
-    const double old = turns_[joint].s;
-    double low = 0, high = 1;
+    const double old = s_[joint];
+    double low = 0, high = std::max(1.0, 2.0 * old);
     const auto at = [&](double s) {
-      turns_[joint].s = s;
+      s_[joint] = s;
       return evaluate();
     };
     double left = high - kGolden * (high - low), right = low + kGolden * (high - low);
@@ -106,29 +119,27 @@ class RefinedBound {
     const double best = of_left < of_right ? left : right;
     const double found = at(best);
     if (found < value) return found;
-    turns_[joint].s = old;
+    s_[joint] = old;
     return value;
   }
 
   double evaluate() {
-    for (std::size_t i = 0; i < path_.size(); ++i)
-      balls_[i].set(path_[i].node, path_[i].m, path_[i].x);
-    for (std::size_t i = 0; i + 1 < path_.size(); ++i) {
-      cross_joint(tree_.nodes[path_[i].node], turns_[i].at_s(), balls_[i]);
-      balls_[path_[i].parent] += balls_[i];
-    }
+    start();
+    for (std::size_t i = 0; i + 1 < path_.size(); ++i) cross(i);
     return distance_at_top(tree_.nodes[path_.back().node], balls_.back());
   }
 
   const JointTree::State& tree_;
   std::vector<PathJoint> path_;
   std::vector<SubtreeBall<1>> balls_;
-  std::vector<Turn> turns_;  // per joint of the path
+  std::vector<double> s_;  // per joint of the path
+  Vec3d at_bind_ = Vec3d::Zero();
 };
 
 }  // namespace
 
-PointBound::PointBound(const JointTree::State& tree, std::size_t most_terms) : tree_(&tree) {
+PointBound::PointBound(const JointTree::State& tree, std::size_t most_terms, double sum_tolerance)
+    : tree_(&tree), sum_tolerance_(sum_tolerance) {
   open_.reserve(most_terms + 1);
 }
 
@@ -144,12 +155,15 @@ void PointBound::add(const Ball& ball) {
 
 double PointBound::without_safety(std::span<const SkinTerm> terms) {
   open_.clear();
+  crossed_.clear();
   double sum = 0;
+  Vec3d at_bind = Vec3d::Zero();
   for (const SkinTerm& term : terms) {
     Ball ball;
     ball.set(tree_->node_of_bone[term.bone], term.m, term.x);
     add(ball);
     sum += term.m;
+    at_bind += term.x;
   }
   if (!(std::abs(sum) <= kSumTolerance)) return kInfinity;
   while (open_.size() > 1) {
@@ -157,8 +171,14 @@ double PointBound::without_safety(std::span<const SkinTerm> terms) {
     open_.pop_back();
     const PreparedJoint& joint = tree_->nodes[ball.node];
     if (!joint.has_scale_range) return kInfinity;
-    if (!joint.has_slide_range && std::abs(ball.m) > kSumTolerance) return kInfinity;
-    cross_joint(joint, joint.turn, ball);
+    if (!joint.has_slide_range && ball.m != 0) {
+      if (std::abs(ball.m) > sum_tolerance_) return kInfinity;
+      crossed_.push_back(
+          {ball.node - 1, std::abs(ball.m) * tree_->nodes[joint.parent].growth_above, 0});
+    }
+    JointTurn<kLanes> turn = joint.turn;
+    joint.set_lane(fitted_shrink(joint, ball, kFittedLane, at_bind), kFittedLane, turn);
+    cross_joint(joint, turn, ball);
     ball.node = joint.parent;
     add(ball);
   }

@@ -8,6 +8,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr int kMostPasses = 60;
+constexpr int kStartsTried = 16;
 
 double uniform(std::mt19937_64& random, double low, double high) {
   return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
@@ -59,6 +60,14 @@ double hinge_towards(const PreparedJoint& joint, const Vec3d& y, const Vec3d& go
   return value(joint.lower) > value(joint.upper) ? joint.lower : joint.upper;
 }
 
+/// The reflection that takes one unit vector to another; the identity if they are equal.
+Mat3d reflection(const Vec3d& from, const Vec3d& to) {
+  const Vec3d normal = from - to;
+  const double square = squared_norm(normal);
+  if (square < 1e-24) return Mat3d::Identity();
+  return Mat3d::Identity() - 2.0 / square * Mat3d(normal * normal.transpose());
+}
+
 }  // namespace
 
 PoseSearch::PoseSearch(const JointTree::State& tree, std::span<const SkinTerm> terms, Goal goal)
@@ -68,7 +77,7 @@ PoseSearch::PoseSearch(const JointTree::State& tree, std::span<const SkinTerm> t
       motions_(path_.size()),
       m_(path_.size()),
       x_(path_.size()),
-      rest_(path_.size()) {
+      inside_(path_.size()) {
   start_at_bind();
 }
 
@@ -89,7 +98,28 @@ JointMotion PoseSearch::neutral(const PreparedJoint& joint) const {
   const Vec3d nearest = joint.slide + part * joint.half_segment;
   const double distance = norm(nearest);
   if (distance > joint.slide_radius) motion.slide = nearest * (1 - joint.slide_radius / distance);
-  motion.scale = std::clamp(1.0, joint.scale_lower, joint.scale_upper);
+  motion.stretch *= std::clamp(1.0, joint.scale_lower, joint.scale_upper);
+  return motion;
+}
+
+JointMotion PoseSearch::random_motion(const PreparedJoint& joint, std::mt19937_64& random) const {
+  JointMotion motion;
+  const Vec3d axis = random_direction(random);
+  const double angle = uniform(random, joint.lower, joint.upper);
+  motion.rotation = rotation_about(joint.is_hinge ? joint.axis : axis, angle);
+  motion.slide = joint.slide + uniform(random, -1, 1) * joint.half_segment +
+                 uniform(random, 0, 1) * joint.slide_radius * random_direction(random);
+  if (joint.scale_half() == 0) {
+    motion.stretch *= joint.scale();
+    return motion;
+  }
+  Vec3d scales;
+  for (int i = 0; i < 3; ++i)
+    scales[i] = std::clamp(joint.scale() + uniform(random, -2, 2) * joint.scale_half(),
+                           joint.scale_lower, joint.scale_upper);
+  const Vec3d turned = random_direction(random);
+  const Mat3d axes = rotation_about(turned, uniform(random, 0, kPi));
+  motion.stretch = multiply(Mat3d(axes * scales.asDiagonal()), Mat3d(axes.transpose()));
   return motion;
 }
 
@@ -98,15 +128,17 @@ void PoseSearch::start_at_bind() {
 }
 
 void PoseSearch::start_at_random(std::mt19937_64& random) {
-  for (std::size_t i = 0; i < path_.size(); ++i) {
-    const PreparedJoint& joint = tree_.nodes[path_[i].node];
-    const Vec3d axis = random_direction(random);
-    const double angle = uniform(random, joint.lower, joint.upper);
-    motions_[i].rotation = rotation_about(joint.is_hinge ? joint.axis : axis, angle);
-    motions_[i].slide = joint.slide + uniform(random, -1, 1) * joint.half_segment +
-                        uniform(random, 0, 1) * joint.slide_radius * random_direction(random);
-    motions_[i].scale = uniform(random, joint.scale_lower, joint.scale_upper);
+  std::vector<JointMotion> best;
+  double value = 0;
+  for (int tried = 0; tried < kStartsTried; ++tried) {
+    for (std::size_t i = 0; i < path_.size(); ++i)
+      motions_[i] = random_motion(tree_.nodes[path_[i].node], random);
+    const double length = sign_ * add_up();
+    if (!best.empty() && length <= value) continue;
+    best = motions_;
+    value = length;
   }
+  motions_ = best;
 }
 
 /// The part that the subtree of a joint adds to that of its parent.
@@ -114,10 +146,11 @@ Vec3d PoseSearch::posed(std::size_t i) const {
   const Vec3d& centre = tree_.nodes[path_[i].node].centre;
   const JointMotion& motion = motions_[i];
   return m_[i] * (centre + motion.slide) +
-         motion.scale * multiply(motion.rotation, Vec3d(x_[i] - m_[i] * centre));
+         multiply(motion.rotation, multiply(motion.stretch, Vec3d(x_[i] - m_[i] * centre)));
 }
 
-void PoseSearch::add_up() {
+/// Sums of subtrees and the total. @return its length.
+double PoseSearch::add_up() {
   for (std::size_t i = 0; i < path_.size(); ++i) {
     m_[i] = path_[i].m;
     x_[i] = path_[i].x;
@@ -126,70 +159,98 @@ void PoseSearch::add_up() {
     m_[path_[i].parent] += m_[i];
     x_[path_[i].parent] += posed(i);
   }
+  total_ = x_.back() - m_.back() * tree_.nodes[path_.back().node].centre;
+  return norm(total_);
 }
 
-/// @param rest  the sum without what the joint turns, seen from the joint's parent.
-void PoseSearch::turn(std::size_t i, const Vec3d& rest) {
-  const PreparedJoint& joint = tree_.nodes[path_[i].node];
-  const Vec3d y = x_[i] - m_[i] * joint.centre, goal = sign_ * rest;
-  if (squared_norm(y) == 0 || squared_norm(goal) == 0) return;
-  motions_[i].rotation = joint.is_hinge ? rotation_about(joint.axis, hinge_towards(joint, y, goal))
-                                        : ball_towards(y, goal, joint.upper);
-}
-
-/// @param rest  the sum without what the slide adds. Only for the longest sum.
-void PoseSearch::slide(std::size_t i, const Vec3d& rest) {
+/// An end of the segment, and from there towards the sum. Only for the longest sum.
+/// @param above  from the joint's parent to the top. @param rest  the sum without the slide.
+void PoseSearch::slide(std::size_t i, const Mat3d& above, const Vec3d& rest) {
   const PreparedJoint& joint = tree_.nodes[path_[i].node];
   if (sign_ < 0 || m_[i] == 0 || joint.slide_reach == 0) return;
-  const Vec3d first = joint.slide - joint.half_segment, last = joint.slide + joint.half_segment;
-  const bool is_first =
-      squared_norm(Vec3d(rest + m_[i] * first)) > squared_norm(Vec3d(rest + m_[i] * last));
-  const Vec3d end = is_first ? first : last;
-  Vec3d direction = normalized(Vec3d(rest + m_[i] * end));
-  if (direction.isZero(0)) direction = Vec3d::UnitX();  // all are alike
-  motions_[i].slide = end + std::copysign(joint.slide_radius, m_[i]) * direction;
+  const auto sum_of = [&](const Vec3d& slide) {
+    return Vec3d(rest + m_[i] * multiply(above, slide));
+  };
+  double best = squared_norm(sum_of(motions_[i].slide));
+  for (const double end : {-1.0, 1.0}) {
+    const Vec3d at = joint.slide + end * joint.half_segment;
+    Vec3d direction = normalized(multiply(Mat3d(above.transpose()), sum_of(at)));
+    if (direction.isZero(0)) direction = Vec3d::UnitX();  // all are alike
+    const Vec3d slide = at + std::copysign(joint.slide_radius, m_[i]) * direction;
+    const double square = squared_norm(sum_of(slide));
+    if (square <= best) continue;
+    best = square;
+    motions_[i].slide = slide;
+  }
 }
 
-void PoseSearch::stretch(std::size_t i, const Vec3d& rest) {
-  const PreparedJoint& joint = tree_.nodes[path_[i].node];
-  if (joint.scale_lower == joint.scale_upper) return;
-  const Vec3d y = multiply(motions_[i].rotation, Vec3d(x_[i] - m_[i] * joint.centre));
-  if (sign_ < 0) {
-    const double square = squared_norm(y);
-    if (square > 0)
-      motions_[i].scale = std::clamp(-dot(rest, y) / square, joint.scale_lower, joint.scale_upper);
-    return;
+/// The best stretch for a rotation. Stretches take a vector y to every place of the ball around
+/// scale * y with the radius scale_half * |y|, and to no other.
+void PoseSearch::stretch(const PreparedJoint& joint, const Mat3d& above, const Vec3d& rest,
+                         const Vec3d& y, JointMotion& motion) const {
+  const double scale = joint.scale();
+  motion.stretch = scale * Mat3d::Identity();
+  if (joint.scale_half() == 0) return;
+  const Vec3d middle = scale * multiply(motion.rotation, y);
+  const Vec3d sum = rest + multiply(above, middle);
+  Vec3d wanted = multiply(Mat3d(above.transpose()), sum);
+  double half = joint.scale_half();
+  if (sign_ < 0) {  // not beyond zero
+    const double square = squared_norm(above) / 3.0;
+    if (!(square > 0)) return;
+    wanted = -wanted / square;
+    half = std::min(half, norm(wanted) / norm(y));
   }
-  const bool is_small = squared_norm(Vec3d(rest + joint.scale_lower * y)) >
-                        squared_norm(Vec3d(rest + joint.scale_upper * y));
-  motions_[i].scale = is_small ? joint.scale_lower : joint.scale_upper;
+  if (wanted.isZero(0)) wanted = middle;
+  const Vec3d direction = multiply(Mat3d(motion.rotation.transpose()), normalized(wanted));
+  motion.stretch += half * reflection(normalized(y), direction);
+}
+
+/// @param rest  the sum without what the joint turns. Where all joints above turn and scale evenly,
+/// the arm is best turned towards it. Else the sum grows if the arm turns towards the whole sum.
+void PoseSearch::turn_and_stretch(std::size_t i, const Mat3d& above, const Vec3d& rest) {
+  const PreparedJoint& joint = tree_.nodes[path_[i].node];
+  const Vec3d y = x_[i] - m_[i] * joint.centre;
+  if (squared_norm(y) == 0) return;
+  const auto sum_of = [&](const JointMotion& motion) {
+    return Vec3d(rest + multiply(above, multiply(motion.linear(), y)));
+  };
+  const Vec3d current = sum_of(motions_[i]);
+  double best = sign_ * squared_norm(current);
+  const JointMotion old = motions_[i];
+  for (const Vec3d& target : {rest, current}) {
+    const Vec3d goal = sign_ * multiply(Mat3d(above.transpose()), target);
+    JointMotion motion = old;
+    if (squared_norm(goal) > 0)
+      motion.rotation = joint.is_hinge ? rotation_about(joint.axis, hinge_towards(joint, y, goal))
+                                       : ball_towards(y, goal, joint.upper);
+    stretch(joint, above, rest, y, motion);
+    const double value = sign_ * squared_norm(sum_of(motion));
+    if (value <= best) continue;
+    best = value;
+    motions_[i] = motion;
+  }
 }
 
 void PoseSearch::move_joint(std::size_t i) {
-  const std::size_t parent = path_[i].parent;
-  const PreparedJoint& joint = tree_.nodes[path_[i].node];
-  const Vec3d old = posed(i);
-  const Vec3d others = rest_[parent] + x_[parent] - old + m_[i] * joint.centre;
-  slide(i, others + (old - m_[i] * (joint.centre + motions_[i].slide)));
-  const Vec3d unturned = others + m_[i] * motions_[i].slide;
-  turn(i, unturned);
-  stretch(i, unturned);
-  x_[parent] += posed(i) - old;
-  const double scale = motions_[i].scale;
-  if (scale > 0)
-    rest_[i] =
-        multiply(Mat3d(motions_[i].rotation.transpose()), unturned) / scale - m_[i] * joint.centre;
-  else
-    rest_[i] = Vec3d::Zero();  // the terms below vanish
+  const Mat3d& above = inside_[path_[i].parent];
+  JointMotion& motion = motions_[i];
+  const Vec3d y = x_[i] - m_[i] * tree_.nodes[path_[i].node].centre;
+  const auto slid = [&] { return Vec3d(m_[i] * multiply(above, motion.slide)); };
+  const auto turned = [&] { return Vec3d(multiply(above, multiply(motion.linear(), y))); };
+  const Vec3d others = total_ - slid() - turned();
+  slide(i, above, Vec3d(others + turned()));
+  turn_and_stretch(i, above, Vec3d(others + slid()));
+  total_ = others + slid() + turned();
+  inside_[i] = multiply(above, motion.linear());
 }
 
 double PoseSearch::improve() {
-  add_up();
+  (void)add_up();
   const std::size_t top = path_.size() - 1;
-  rest_[top] = -m_[top] * tree_.nodes[path_[top].node].centre;
+  inside_[top] = Mat3d::Identity();
   for (std::size_t i = top; i-- > 0;) move_joint(i);
-  add_up();
-  return norm(Vec3d(rest_[top] + x_[top]));
+  return add_up();
 }
 
 double PoseSearch::improve_fully() {
@@ -202,17 +263,36 @@ double PoseSearch::improve_fully() {
   return value;
 }
 
+bool PoseSearch::is_from_top_upwards(std::uint32_t node) const {
+  if (path_.empty()) return false;
+  std::uint32_t above = path_.back().node;
+  while (above > node) above = tree_.nodes[above].parent;
+  return above == node;
+}
+
+double PoseSearch::growth() const {
+  return path_.empty() ? 1.0 : tree_.nodes[path_.back().node].growth_above;
+}
+
+JointMotion PoseSearch::motion_of(std::uint32_t bone) const {
+  const std::uint32_t node = bone + 1;
+  for (std::size_t i = 0; i + 1 < path_.size(); ++i)
+    if (path_[i].node == node) return motions_[i];
+  const PreparedJoint& joint = tree_.nodes[node];
+  JointMotion motion = neutral(joint);
+  if (is_from_top_upwards(node))
+    motion.stretch = (sign_ > 0 ? joint.scale_upper : joint.scale_lower) * Mat3d::Identity();
+  return motion;
+}
+
 std::vector<Affine3d> PoseSearch::model_from_bind() const {
   std::vector<Affine3d> matrices(tree_.parents.size());
-  for (std::size_t bone = 0; bone < matrices.size(); ++bone) {
-    const PreparedJoint& joint = tree_.nodes[bone + 1];
-    JointMotion motion = neutral(joint);
-    for (std::size_t i = 0; i + 1 < path_.size(); ++i)
-      if (path_[i].node == bone + 1) motion = motions_[i];
+  for (std::uint32_t bone = 0; bone < matrices.size(); ++bone) {
+    const Vec3d& centre = tree_.nodes[bone + std::size_t{1}].centre;
+    const JointMotion motion = motion_of(bone);
     Affine3d local;
-    local.linear() = motion.scale * motion.rotation;
-    local.translation() =
-        joint.centre + motion.slide - multiply(Mat3d(local.linear()), joint.centre);
+    local.linear() = motion.linear();
+    local.translation() = centre + motion.slide - multiply(Mat3d(local.linear()), centre);
     const std::uint32_t parent = tree_.parents[bone];
     matrices[bone] = parent == kNone ? local : multiply(matrices[parent], local);
   }
@@ -225,12 +305,11 @@ FoundPose PoseSearch::pose() const {
   const std::vector<Affine3d> matrices = model_from_bind();
   for (std::uint32_t bone = 0; bone < matrices.size(); ++bone) {
     result.pose.model_from_bone[bone] = multiply(matrices[bone], tree_.bind.model_from_bone[bone]);
-    JointMotion motion = neutral(tree_.nodes[bone + std::size_t{1}]);
-    for (std::size_t i = 0; i + 1 < path_.size(); ++i)
-      if (path_[i].node == bone + 1) motion = motions_[i];
-    if (motion.rotation.isIdentity(0) && motion.slide.isZero(0) && motion.scale == 1) continue;
+    const JointMotion motion = motion_of(bone);
+    if (motion.rotation.isIdentity(0) && motion.slide.isZero(0) && motion.stretch.isIdentity(0))
+      continue;
     result.motions.push_back(
-        {bone, normalized(Quatd(motion.rotation)), motion.slide, motion.scale});
+        {bone, normalized(Quatd(motion.rotation)), motion.slide, motion.stretch});
   }
   return result;
 }

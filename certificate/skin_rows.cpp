@@ -9,10 +9,19 @@
 namespace sunder {
 namespace certificate {
 
-void add_point(const Skin& skin, const ModelPose& bind, const Vec3d& position,
-               std::span<const Influence> influences, double share, std::vector<SkinTerm>& terms) {
+namespace {
+
+double sum_of(std::span<const Influence> influences) {
   double sum = 0;
   for (const Influence& influence : influences) sum += static_cast<double>(influence.weight);
+  return sum;
+}
+
+}  // namespace
+
+void add_point(const Skin& skin, const ModelPose& bind, const Vec3d& position,
+               std::span<const Influence> influences, double share, std::vector<SkinTerm>& terms) {
+  const double sum = sum_of(influences);
   for (const Influence& influence : influences) {
     const double m = share * (static_cast<double>(influence.weight) / sum);
     const std::uint32_t bone = skin.bones[influence.slot];
@@ -88,13 +97,17 @@ Status append_difference(const Character& character, const ModelPose& bind, std:
     if (const Status status = check_vertex(character, mesh, share.vertex); !status) return status;
   try {
     std::vector<SkinTerm> terms;
-    for (const VertexShare& share : shares)
+    double divided = 0;
+    for (const VertexShare& share : shares) {
+      divided += share.share * (sum_of(of.weights.of(share.vertex)) - 1.0);
       add_point(skin, bind, of.positions[share.vertex].cast<double>(), of.weights.of(share.vertex),
                 share.share, terms);
+    }
     merge_terms(terms);
     differences.first.reserve(differences.first.size() + 1);
     differences.terms.insert(differences.terms.end(), terms.begin(), terms.end());
     differences.first.push_back(static_cast<std::uint32_t>(differences.terms.size()));
+    differences.divided_sum = std::max(differences.divided_sum, std::abs(divided));
     return {};
   } catch (const std::bad_alloc&) {
     return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");

@@ -1,6 +1,7 @@
 // Bounds of the blended matrix: where it can never collapse.
 
 #include <sunder/certificate/certificate.h>
+#include <sunder/skinning/pose.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "support/machine/stress.h"
+#include "support/models/rigs.h"
 #include "validation/random_rig.h"
 
 namespace sunder {
@@ -31,12 +33,12 @@ double smallest_of(const RandomRig& rig, const std::vector<Affine3d>& pose,
   return Eigen::JacobiSVD<Eigen::MatrixXd>(sum).singularValues()[2];
 }
 
-SkinDifferences row_of(const RandomWeights& weights) {
+SkinBlends row_of(const RandomWeights& weights) {
   std::vector<SkinTerm> terms;
   test::add_terms(weights, Vec3d(0.1, 0.2, 0.3), 1, terms);
   SkinDifferences rows;
   test::append_row(terms, rows);
-  return rows;
+  return {rows, {}};
 }
 
 /// Bones from a bone to the root, itself included.
@@ -141,6 +143,83 @@ TEST(BlendBound, one_bone_is_rigid) {
   EXPECT_NEAR((*bounds)[0], 1, 1e-9);
 }
 
+/// The smallest singular value of the blended matrix, relative to bind.
+double smallest_of(const RandomRig& rig, const std::vector<Affine3d>& pose,
+                   const RandomWeights& weights, const std::vector<Mat3d>& at_bind) {
+  Mat3d sum = Mat3d::Zero(), sum_at_bind = Mat3d::Zero();
+  for (std::size_t i = 0; i < weights.bones.size(); ++i) {
+    const std::uint32_t bone = weights.bones[i];
+    const Mat3d linear = (pose[bone] * rig.bind.model_from_bone[bone].inverse()).linear();
+    sum += weights.weights[i] * linear * at_bind[i];
+    sum_at_bind += weights.weights[i] * at_bind[i];
+  }
+  return Eigen::JacobiSVD<Eigen::MatrixXd>(Eigen::MatrixXd(sum * sum_at_bind.inverse()))
+      .singularValues()[2];
+}
+
+TEST(BlendBound, no_pose_goes_below_it_where_skins_have_matrices_of_their_own) {
+  Random random(33);
+  int certified = 0;
+  for (int i = 0; i < test::stressed(300, 10); ++i) {
+    RandomRigKind kind;
+    kind.most_bones = 5;
+    kind.most_angle = 0.8;
+    kind.has_scales = i % 3 == 0;
+    const RandomRig rig = test::make_random_rig(random, kind);
+    const RandomWeights weights =
+        test::random_weights(random, static_cast<std::uint32_t>(rig.skeleton.bones.size()));
+    SkinBlends blends = row_of(weights);
+    const Mat3d common = 0.01 * Eigen::AngleAxisd(1.0, random.direction()).toRotationMatrix();
+    for (std::size_t k = 0; k < weights.bones.size(); ++k) {
+      Mat3d own = Eigen::AngleAxisd(random.uniform(0, 0.6), random.direction()).toRotationMatrix();
+      own.col(0) *= random.uniform(0.9, 1.1);
+      blends.at_bind.push_back(own * common);
+    }
+    const JointTree tree = test::make_tree(rig);
+    const auto bounds = certify_blend(tree, blends);
+    ASSERT_TRUE(bounds) << bounds.error().text();
+    certified += (*bounds)[0] > 0.1;
+    for (int k = 0; k < 20; ++k)
+      ASSERT_GE(smallest_of(rig, test::random_pose_within(random, rig), weights, blends.at_bind),
+                (*bounds)[0])
+          << "rig " << i;
+    const auto pose = find_collapse_pose(tree, blends, 0);
+    ASSERT_TRUE(pose) << pose.error().text();
+    ASSERT_NEAR(smallest_of(rig, pose->pose.model_from_bone, weights, blends.at_bind), pose->found,
+                1e-7);
+    ASSERT_GE(pose->found, (*bounds)[0]) << "rig " << i;
+  }
+  EXPECT_GT(certified, 30);
+}
+
+TEST(BlendBound, of_a_vertex_has_the_matrices_of_its_skin) {
+  Character character = test::make_tube(12, 6, 3);
+  const ModelPose bind = *bind_pose(character);
+  Skin other = character.skins[0];  // its second bone is turned against the bind pose
+  other.bone_from_bind[1].linear() =
+      other.bone_from_bind[1].linear() * Eigen::AngleAxisf(2.8f, Vec3f(0, 0, 1)).toRotationMatrix();
+  character.skins.push_back(other);
+  Mesh& mesh = character.meshes[0];
+  mesh.weights = {};
+  for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v)
+    mesh.weights.append(std::vector<Influence>{{0, 0.5f}, {1, 0.5f}});
+  JointLimits limits;
+  limits.of_bone.resize(character.skeleton.bones.size());
+  for (JointRange& range : limits.of_bone) range.angle = 0.3;
+  const auto tree = JointTree::create(character.skeleton, bind, limits);
+  ASSERT_TRUE(tree);
+  const auto bound_of = [&](std::uint32_t skin) {
+    mesh.skin = skin;
+    SkinBlends blends;
+    EXPECT_TRUE(append_blend(character, bind, 0, 5, blends));
+    const auto bounds = certify_blend(*tree, blends);
+    EXPECT_TRUE(bounds);
+    return (*bounds)[0];
+  };
+  EXPECT_NEAR(bound_of(0), std::cos(0.15), 1e-6);
+  EXPECT_LE(bound_of(1), std::cos(1.55) / std::cos(1.4)) << "turned by 0.3 more, it nearly folds";
+}
+
 TEST(BlendBound, faults_of_the_input_are_named) {
   const JointTree tree = test::make_tree(bent_arm(1));
   EXPECT_EQ(certify_blend(tree, row_of({{0, 1}, {0.5, 0.4}})).error().code(),
@@ -149,6 +228,12 @@ TEST(BlendBound, faults_of_the_input_are_named) {
             StatusCode::weights_not_normalized);
   EXPECT_EQ(find_collapse_pose(tree, row_of({{0}, {1.0}}), 3).error().code(),
             StatusCode::index_out_of_range);
+  SkinBlends blends = row_of({{0, 1}, {0.5, 0.5}});
+  blends.at_bind = {Mat3d::Identity()};
+  EXPECT_EQ(certify_blend(tree, blends).error().code(), StatusCode::size_mismatch);
+  blends.at_bind = {Mat3d::Zero(), Mat3d::Zero()};
+  EXPECT_EQ((*certify_blend(tree, blends))[0], -1.0);
+  EXPECT_EQ(find_collapse_pose(tree, blends, 0).error().code(), StatusCode::unsupported_feature);
 }
 
 }  // namespace

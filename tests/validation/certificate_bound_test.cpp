@@ -341,6 +341,139 @@ TEST(DeviationBound, unequal_sums_have_none) {
   EXPECT_NEAR(certify(two_bones({}), rows).sum_residual, 1e-7, 1e-12);
 }
 
+/// A bone that stretches, and two that slide without a range as its children.
+RandomRig two_free_bones() {
+  RandomRig rig = two_bones({});
+  rig.skeleton.bones.push_back(rig.skeleton.bones[1]);
+  rig.bind.model_from_bone.push_back(Affine3d::Identity());
+  JointRange range;
+  range.angle = 0.4;
+  range.slide_radius = std::numeric_limits<double>::infinity();
+  rig.limits.of_bone = {JointRange{}, range, range};
+  rig.limits.of_bone[0].scale_upper = 1.5;
+  return rig;
+}
+
+TEST(DeviationBound, holds_with_its_residuals_however_far_bones_slide) {
+  const RandomRig rig = two_free_bones();
+  const Vec3d p(0.1, 0.2, 0.3);
+  const double least = 2e-6;  // less than what counts as a different sum
+  SkinDifferences rows;
+  test::append_row({{0, 0.0, Vec3d(1e-3, 0, 0)}, {1, 0.0, Vec3d(-1e-3, 0, 0)}}, rows);
+  test::append_row({{0, -least, Vec3d(-least * p)},
+                    {1, 2 * least, Vec3d(2 * least * p)},
+                    {2, -least, Vec3d(-least * p)}},
+                   rows);
+  const auto certificate = certify(rig, rows);
+  EXPECT_TRUE(certificate.gaps.empty());
+  ASSERT_EQ(certificate.slide_residuals.size(), 2u);
+  double moved = certificate.bound[1];
+  const double slide = 1e3;
+  for (std::uint32_t i = 0; i < 2; ++i) {
+    const SlideResidual& residual = certificate.slide_residuals[i];
+    EXPECT_EQ(residual.bone, i + 1);
+    EXPECT_EQ(residual.point, 1u);
+    EXPECT_NEAR(residual.weight, 1.5 * (2 - i) * least, 1e-15);
+    moved += slide * residual.weight;
+  }
+  std::vector<Affine3d> pose = rig.bind.model_from_bone;  // apart, and stretched
+  for (int bone = 0; bone < 3; ++bone) {
+    pose[bone].matrix() *= 1.5;
+    if (bone > 0) pose[bone].translation().x() += bone == 1 ? 1.5 * slide : -1.5 * slide;
+  }
+  double deviation = 0;
+  for (const auto& [bone, factor] : {std::pair(0, -1.0), std::pair(1, 2.0), std::pair(2, -1.0)}) {
+    const Affine3d matrix = pose[bone] * rig.bind.model_from_bone[bone].inverse();
+    deviation += factor * least * (matrix * p).x();
+  }
+  EXPECT_GT(std::abs(deviation), 5e-3) << "far above the bound alone";
+  EXPECT_LE(std::abs(deviation), moved);
+  EXPECT_GE(std::abs(deviation), 0.99 * (moved - certificate.bound[1]));
+}
+
+/// The largest |rest + arm|, the arm turned by at most an angle.
+double longest_sum(const Vec3d& rest, const Vec3d& arm, double angle) {
+  const double between = std::acos(std::clamp(rest.normalized().dot(arm.normalized()), -1.0, 1.0));
+  const double left = std::max(0.0, between - angle), g = rest.norm(), y = arm.norm();
+  return std::sqrt(g * g + y * y + 2 * g * y * std::cos(left));
+}
+
+TEST(DeviationBound, is_attained_where_one_ball_joint_is_crossed) {
+  Random random(21);
+  for (int i = 0; i < test::stressed(2'000, 10); ++i) {
+    JointRange ball;
+    ball.angle = random.uniform(0.05, 3.1);
+    const RandomRig rig = two_bones(ball);
+    const double m = random.uniform(-1, 1);
+    const Vec3d x0 = random_point(random), x1 = random_point(random);
+    SkinDifferences rows;
+    test::append_row({{0, -m, x0}, {1, m, x1}}, rows);
+    const Vec3d centre(0, 1, 0);
+    const double expected = longest_sum(Vec3d(x0 + m * centre), Vec3d(x1 - m * centre), ball.angle);
+    for (const std::uint32_t refined : {0u, 1u})
+      EXPECT_NEAR(certify(rig, rows, {0, refined}).maximum, expected, 1e-8 * expected)
+          << i << ", angle " << ball.angle;
+  }
+}
+
+TEST(WorstPose, is_not_below_random_poses_where_bones_stretch) {
+  Random random(23);
+  std::vector<double> ratios;
+  for (int rigs = 0; rigs < test::stressed(150, 10); ++rigs) {
+    RandomRigKind kind;
+    kind.most_bones = 4;
+    kind.has_hinges = rigs % 2 == 0;
+    kind.most_angle = rigs % 3 == 0 ? 3.2 : 0.6;
+    Scene scene(random, kind, 2);
+    for (JointRange& range : scene.rig.limits.of_bone) {
+      range.scale_lower = random.uniform(0.5, 1);
+      range.scale_upper = random.uniform(1, 1.6);
+    }
+    const JointTree tree = test::make_tree(scene.rig);
+    const DeviationCertificate certificate = certify(scene.rig, scene.rows);
+    for (std::uint32_t i = 0; i < scene.pairs.size(); ++i) {
+      const auto pose = find_worst_pose(tree, scene.rows, i);
+      ASSERT_TRUE(pose);
+      ASSERT_NEAR(deviation_in(scene.rig, scene.pairs[i], *pose), pose->found, kRounding);
+      ASSERT_LE(pose->found, certificate.bound[i] + kRounding);
+      if (certificate.bound[i] > 1e-9) ratios.push_back(pose->found / certificate.bound[i]);
+      for (int k = 0; k < 200; ++k)
+        ASSERT_LE(scene.pairs[i].deviation(scene.rig, test::random_pose_within(random, scene.rig)),
+                  pose->found + kRounding)
+            << "rig " << rigs << ", pair " << i;
+    }
+  }
+  EXPECT_GT(median(ratios), 0.97);
+}
+
+TEST(DeviationBound, of_edges_is_close_at_small_angles) {
+  Random random(22);
+  std::vector<double> ratios;
+  for (int rigs = 0; rigs < test::stressed(300, 10); ++rigs) {
+    RandomRigKind kind;
+    kind.most_bones = 5;
+    kind.most_angle = 0.35;
+    kind.has_slides = kind.has_scales = kind.has_hinges = false;
+    const RandomRig rig = test::make_random_rig(random, kind);
+    const auto bones = static_cast<std::uint32_t>(rig.skeleton.bones.size());
+    const Vec3d p = random_point(random), q = p + 0.1 * random.direction();
+    const RandomWeights common = test::random_weights(random, bones);
+    std::vector<SkinTerm> terms;  // ends of an edge move nearly alike
+    for (const auto& [end, sign] : {std::pair(p, 1.0), std::pair(q, -1.0)}) {
+      test::add_terms(common, end, 0.97 * sign, terms);
+      test::add_terms(test::random_weights(random, bones), end, 0.03 * sign, terms);
+    }
+    SkinDifferences rows;
+    test::append_row(terms, rows);
+    const double bound = certify(rig, rows, {0, 0}).maximum;  // as of all points but the worst
+    const auto pose = find_worst_pose(test::make_tree(rig), rows, 0);
+    ASSERT_TRUE(pose);
+    EXPECT_LE(pose->found, bound + kRounding);
+    ratios.push_back(bound / pose->found);
+  }
+  EXPECT_LT(median(ratios), 1.05);
+}
+
 TEST(DeviationBound, has_the_same_bits_at_any_number_of_threads) {
   Random random(13);
   RandomRigKind kind;

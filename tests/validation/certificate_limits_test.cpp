@@ -131,7 +131,8 @@ double angle_of(const Mat3d& rotation) {
 }
 
 /// Expects a motion within a range. @return its angle.
-double expect_within(const Affine3d& motion, const Affine3d& bone, const JointRange& range) {
+double expect_within(const Affine3d& motion, const Affine3d& bone, const JointRange& range,
+                     double rounding = 1e-7) {
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(Eigen::MatrixXd(motion.linear()),
                                               Eigen::ComputeThinU | Eigen::ComputeThinV);
   EXPECT_LE(svd.singularValues()[0], range.scale_upper);
@@ -142,7 +143,7 @@ double expect_within(const Affine3d& motion, const Affine3d& bone, const JointRa
   Mat3d axes = bone.linear();
   for (int i = 0; i < 3; ++i) axes.col(i).normalize();
   const Vec3d slide = motion * bone.translation() - bone.translation();
-  EXPECT_LE((slide - axes * range.slide_from).norm(), range.slide_radius + 1e-7);
+  EXPECT_LE((slide - axes * range.slide_from).norm(), range.slide_radius + rounding);
   EXPECT_EQ(range.slide_from, range.slide_to);
   return angle;
 }
@@ -187,6 +188,52 @@ TEST(JointLimitsOfClips, hold_every_pose_of_bones_below_uneven_scales) {
     expect_clips_within(rig, *limits, 100, largest);
     if (HasFailure()) return;
   }
+}
+
+/// Mixed as layers do: rotations the shorter way, normalised.
+BoneTransform mixed(const BoneTransform& a, const BoneTransform& b, float part) {
+  BoneTransform result;
+  result.translation = (1 - part) * a.translation + part * b.translation;
+  result.scale = (1 - part) * a.scale + part * b.scale;
+  const float side = a.rotation.coeffs().dot(b.rotation.coeffs()) < 0 ? -1.0f : 1.0f;
+  result.rotation.coeffs() =
+      ((1 - part) * a.rotation.coeffs() + side * part * b.rotation.coeffs()).normalized();
+  return result;
+}
+
+TEST(JointLimitsOfClips, hold_in_cross_fades_where_angles_are_below_90_degrees) {
+  Random random(25);
+  int narrow = 0;
+  for (int i = 0; i < test::stressed(40, 20); ++i) {
+    const AnimatedRig rig =
+        random_animated_rig(random, static_cast<Scales>(i % 3), i % 2 == 0 ? 0.2 : 0.6, i % 4 == 3);
+    const auto limits = joint_limits_of_clips(rig.character, rig.bind, 0);
+    ASSERT_TRUE(limits);
+    for (int k = 0; k < 50; ++k) {
+      Pose faded = *local_rest_pose(rig.character);
+      for (const Clip& clip : rig.character.clips) {  // the second over the first, over rest
+        Pose local = *local_rest_pose(rig.character);
+        ASSERT_TRUE(sample_clip(clip, random.uniform(0, 1), local));
+        const auto part = static_cast<float>(random.uniform(0, 1));
+        for (std::size_t bone = 0; bone < limits->of_bone.size(); ++bone)
+          faded.parent_from_bone[bone] =
+              mixed(faded.parent_from_bone[bone], local.parent_from_bone[bone], part);
+      }
+      ModelPose pose;
+      ASSERT_TRUE(compute_model_pose(rig.character.skeleton, faded, pose));
+      for (std::size_t bone = 0; bone < limits->of_bone.size(); ++bone) {
+        if (limits->of_bone[bone].angle >= kPi / 2) continue;
+        ++narrow;
+        const std::uint32_t parent = rig.character.skeleton.bones[bone].parent;
+        const double scale =
+            parent == kNone ? 1.0 : rig.bind.model_from_bone[parent].linear().norm();
+        expect_within(motion_of(rig, pose, bone), rig.bind.model_from_bone[bone],
+                      limits->of_bone[bone], 1e-6 * scale);  // mixed in float
+      }
+      if (HasFailure()) return;
+    }
+  }
+  EXPECT_GT(narrow, 1000);
 }
 
 TEST(JointLimitsOfClips, certify_the_clips) {

@@ -42,6 +42,18 @@ std::string text_of_gaps(const RowReader& reader, std::span<const CertificateGap
   return text;
 }
 
+/// What rounded sums of weights add where a bone slides without a range, in words.
+std::string text_of_residuals(const RowReader& reader, const DeviationCertificate& certificate) {
+  std::string text;
+  for (const SlideResidual& residual : certificate.slide_residuals) {
+    char number[32];
+    std::snprintf(number, sizeof number, "%.2g", residual.weight);
+    text += " The translation of '" + reader.source().character.skeleton.bones[residual.bone].name +
+            "' has no range: it adds up to " + number + " m per metre, by rounded weights.";
+  }
+  return text;
+}
+
 std::string text_of_bracket(double found, double certified) {
   char text[160];
   std::snprintf(text, sizeof text,
@@ -62,7 +74,7 @@ void certify_deviations(const RowReader& reader, const JointTree& tree,
   }
   bracket.is_tested = true;
   bracket.certified = certificate->maximum;
-  bracket.why = text_of_gaps(reader, certificate->gaps);
+  bracket.why = text_of_gaps(reader, certificate->gaps) + text_of_residuals(reader, *certificate);
   Places places;
   const double least = kind_of(Code::cert_deviation).threshold * report.diagonal;
   for (Index v = 0; v < certificate->bound.size(); ++v) {
@@ -103,15 +115,29 @@ void certify_cracks(const RowReader& reader, const JointTree& tree, const CrackR
   if (certificate->worst != kNone)
     if (const auto pose = find_worst_pose(tree, cracks.rows, certificate->worst))
       found = pose->found;
-  findings.add_finding(
-      Code::cert_crack, Severity::note, Evidence::certified,
-      text_of_bracket(found, certificate->maximum) + text_of_gaps(reader, certificate->gaps),
-      std::move(places), certificate->maximum);
+  findings.add_finding(Code::cert_crack, Severity::note, Evidence::certified,
+                       text_of_bracket(found, certificate->maximum) +
+                           text_of_gaps(reader, certificate->gaps) +
+                           text_of_residuals(reader, *certificate),
+                       std::move(places), certificate->maximum);
+}
+
+/// The linear part at bind of what moves the term of a bone, of a vertex of the target.
+Mat3d matrix_at_bind(std::span<const Influence> influences, std::span<const DrivenSlot> slots,
+                     Index bone) {
+  Mat3d sum = Mat3d::Zero();
+  double weight = 0.0;
+  for (const Influence& influence : influences) {
+    if (slots[influence.slot].bone != bone) continue;
+    sum += static_cast<double>(influence.weight) * slots[influence.slot].model_from_bind.linear();
+    weight += static_cast<double>(influence.weight);
+  }
+  return sum / weight;
 }
 
 /// The vertices whose deviation has the largest bounds, as skinned points of their own.
-SkinDifferences worst_vertices(const RowReader& reader, const CertifiedRows& rows,
-                               const ValidationReport& report, std::vector<Index>& vertices) {
+SkinBlends worst_vertices(const RowReader& reader, const CertifiedRows& rows,
+                          const ValidationReport& report, std::vector<Index>& vertices) {
   for (Index v = 0; v < report.vertex_bound.size(); ++v)
     if (report.vertex_bound[v] > 0.0f) vertices.push_back(v);
   if (vertices.size() > kMostBlends) {
@@ -122,20 +148,24 @@ SkinDifferences worst_vertices(const RowReader& reader, const CertifiedRows& row
     std::ranges::sort(vertices);
   }
   const BindSurface& surface = reader.target().surface;
-  SkinDifferences points;
+  SkinBlends blends;
   TermSum sum = rows.points.make_sum();
   for (const Index v : vertices) {
-    const Index mesh = surface.mesh_of_vertex(v);
-    rows.points.add_target(mesh, v - surface.first_vertex[mesh], 1.0, sum);
-    sum.finish(points);
+    const Index mesh = surface.mesh_of_vertex(v), vertex = v - surface.first_vertex[mesh];
+    rows.points.add_target(mesh, vertex, 1.0, sum);
+    sum.finish(blends.points);
+    const auto& slots = rows.points.skins().of_target[reader.target().character.meshes[mesh].skin];
+    for (std::size_t i = blends.at_bind.size(); i < blends.points.terms.size(); ++i)
+      blends.at_bind.push_back(matrix_at_bind(reader.target().influences(mesh, vertex), slots,
+                                              blends.points.terms[i].bone));
   }
-  return points;
+  return blends;
 }
 
 void certify_blends(const RowReader& reader, const JointTree& tree, const CertifiedRows& rows,
                     const ValidationReport& report, FindingList& findings) {
   std::vector<Index> vertices;
-  const SkinDifferences points = worst_vertices(reader, rows, report, vertices);
+  const SkinBlends points = worst_vertices(reader, rows, report, vertices);
   if (vertices.empty()) return findings.add(Code::cert_collapse, {});
   const Result<std::vector<double>> bounds = certify_blend(tree, points);
   if (!bounds) return findings.not_tested(Code::cert_collapse, std::string(bounds.error().text()));

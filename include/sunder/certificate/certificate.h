@@ -26,6 +26,9 @@ struct SkinTerm {
 struct SkinDifferences {
   std::vector<std::uint32_t> first = {0};  ///< One per point and one more: offsets into `terms`.
   std::vector<SkinTerm> terms;             ///< Each bone at most once per point, ascending.
+  /// The largest |sum_k share_k * (sum of the weights of vertex k - 1)| that append_difference()
+  /// took out of a row when it divided weights by their sums.
+  double divided_sum = 0.0;
 };
 
 /// A vertex and its coefficient in a sum of posed vertices.
@@ -77,7 +80,9 @@ struct JointLimits {
                                                                const ModelPose& bind);
 
 /// The largest rotation, translation and scale from bind that each bone reaches in the rest pose or
-/// at any time of any clip, between keys too. Rotations are exact for step and linear keys and
+/// at any time of any clip, between keys too. Cross-fades and layers that mix clips stay within
+/// them where a bone's angle is below 90 degrees; additive layers, pulls and poses changed by hand
+/// do not. Rotations are exact for step and linear keys and
 /// within 0.002 radians above the largest for cubic splines; docs/certificate.md.
 /// @param margin  radians, >= 0; added to the angle of each bone that a clip rotates.
 [[nodiscard]] SUNDER_API Result<JointLimits> joint_limits_of_clips(const Character& character,
@@ -114,15 +119,28 @@ struct CertificateGap {
   std::uint32_t count = 0;      ///< Number of points.
 };
 
-/// No pose within the limits moves the two skins of a point farther apart than its bound.
+/// Weight that crosses a bone whose slide has no range, at most 4e-6: rounding of sums of weights.
+struct SlideResidual {
+  std::uint32_t bone = kNone;
+  double weight = 0.0;  ///< Of all points the largest: metres per metre that the bone slides.
+  std::uint32_t point = kNone;  ///< The first with that weight.
+};
+
+/// No pose within the limits moves the two skins of a point farther apart than its bound and what
+/// sums of weights that are not quite equal add: `slide_residuals` and `sum_residual`.
 struct DeviationCertificate {
   std::vector<double> bound;    ///< One per point, metres; infinity where there is no certificate.
   double maximum = 0.0;         ///< Of the points that have a certificate.
   std::uint32_t worst = kNone;  ///< Its point; kNone if the maximum is 0.
   std::vector<CertificateGap>
       gaps;  ///< One per reason and bone; empty: `maximum` is for all points.
-  /// The largest difference of two sums of weights, at most 4e-6. It is rounding, and not part of
-  /// the bounds: a character at the distance d from the origin adds d times as much.
+  /// One per bone without a slide range that such weight crosses, ascending: a pose in which the
+  /// bone slides by d metres from bind may exceed a bound by d times its weight.
+  std::vector<SlideResidual> slide_residuals;
+  /// The largest difference of two sums of weights, also of those that append_difference() divided
+  /// by their sums, because skinning does not. Of rounding alone, at most 4e-6 where rows have it.
+  /// A pose in which the bones of a point are d metres from the model's origin may exceed a bound
+  /// by d times as much.
   double sum_residual = 0.0;
 };
 
@@ -132,8 +150,8 @@ struct CertificateOptions {
 };
 
 /// Bounds the deviation of all points. A point without terms has exactly 0. Bounds are multiplied
-/// by 1 + 1e-10 for rounding. O(terms * joints between them), independent of poses; allocates per
-/// task, not per point. The same bits at any number of threads.
+/// by 1 + 1e-10 for rounding. O(terms * joints between them), independent of poses. Allocates one
+/// array per result and task, and a few per refined point. The same bits at any number of threads.
 /// @return index_out_of_range or non_finite_value with the point, invalid_argument for options.
 [[nodiscard]] SUNDER_API Result<DeviationCertificate> certify_deviation(
     const JointTree& tree, const SkinDifferences& differences,
@@ -144,12 +162,12 @@ struct CertificateOptions {
     const DeviationCertificate& certificate, std::size_t count);
 
 /// The motion of a bone in a pose, relative to its parent and to bind:
-/// x -> centre + slide + scale * rotation * (x - centre), in model space of the bind pose.
+/// x -> centre + slide + rotation * stretch * (x - centre), in model space of the bind pose.
 struct BoneMotion {
   std::uint32_t bone = 0;
   Quatd rotation = Quatd::Identity();
-  Vec3d slide = Vec3d::Zero();  ///< Metres.
-  double scale = 1.0;
+  Vec3d slide = Vec3d::Zero();        ///< Metres.
+  Mat3d stretch = Mat3d::Identity();  ///< Symmetric.
 };
 
 /// A pose within the limits.
@@ -165,7 +183,8 @@ struct SearchOptions {
 };
 
 /// Searches the pose within the limits that moves a point's two skins farthest apart, by coordinate
-/// ascent: each joint in turn takes its best place in closed form. `found` never exceeds the bound
+/// ascent from bind and from the best of some random poses: each joint in turn takes its best place
+/// in closed form. `found` never exceeds the bound
 /// but for rounding, and is usually above 0.85 of it; docs/certificate.md has figures.
 /// @return index_out_of_range for the point; unsupported_feature if it has no certificate.
 [[nodiscard]] SUNDER_API Result<FoundPose> find_worst_pose(const JointTree& tree,
@@ -173,19 +192,36 @@ struct SearchOptions {
                                                            std::uint32_t point,
                                                            const SearchOptions& options = {});
 
-/// Lower bounds of the smallest singular value of the blended matrix sum_i w_i A_i in every pose
-/// within the limits, one per row of `points`, which are skinned points with m = w_i >= 0 of sum 1.
-/// Where it is positive, the matrix never inverts, and for rigid bones its condition is at most the
-/// inverse of the bound; elsewhere the point may collapse. O(terms^2 * joints between them).
-/// @return index_out_of_range, weights_not_normalized or non_finite_value with the point.
-[[nodiscard]] SUNDER_API Result<std::vector<double>> certify_blend(
-    const JointTree& tree, const SkinDifferences& points, const ParallelFor& parallel_for = {});
+/// Skinned points with the linear parts of what moves them. A skin whose bind matrices are not
+/// those of the bind pose (skins may differ) has parts that are not the identity at bind.
+struct SkinBlends {
+  SkinDifferences points;      ///< Rows with m >= 0 that sum to one.
+  std::vector<Mat3d> at_bind;  ///< One per term, or none: the identity everywhere.
+};
 
-/// Searches the pose within the limits in which the blended matrix of a point has its smallest
-/// singular value.
-/// @return index_out_of_range for the point; unsupported_feature if a scale has no range.
+/// Appends the row of append_difference() for a vertex and its matrices: model_from_bone at bind
+/// times the bind matrix of the skin, of terms with several slots the mean by weight.
+/// @return as append_difference(); size_mismatch unless there is one matrix per term already.
+[[nodiscard]] SUNDER_API Status append_blend(const Character& character, const ModelPose& bind,
+                                             std::uint32_t mesh, std::uint32_t vertex,
+                                             SkinBlends& blends);
+
+/// Lower bounds, in every pose within the limits, of the smallest singular value of the blended
+/// matrix sum_i w_i A_i N_i, relative to what it is at bind (N_i are `at_bind`), one per point.
+/// Where it is positive, the matrix never inverts, and for rigid bones its condition is at most the
+/// inverse of the bound; elsewhere the point may collapse. -1 if the matrix is flat at bind or one
+/// of its parts mirrors it. O(terms^2 * joints between them).
+/// @return index_out_of_range, weights_not_normalized or non_finite_value with the point, or
+/// size_mismatch.
+[[nodiscard]] SUNDER_API Result<std::vector<double>> certify_blend(
+    const JointTree& tree, const SkinBlends& blends, const ParallelFor& parallel_for = {});
+
+/// Searches the pose within the limits in which the blended matrix of a point, relative to bind,
+/// has its smallest singular value.
+/// @return index_out_of_range for the point; unsupported_feature if a scale has no range or
+/// certify_blend() has no bound.
 [[nodiscard]] SUNDER_API Result<FoundPose> find_collapse_pose(const JointTree& tree,
-                                                              const SkinDifferences& points,
+                                                              const SkinBlends& blends,
                                                               std::uint32_t point,
                                                               const SearchOptions& options = {});
 
@@ -206,9 +242,12 @@ struct CertifiedInfluences {
   std::uint32_t above_maximum_error = 0;  ///< Number of vertices that the budget cannot keep below.
 };
 
-/// Chooses per vertex the fewest influences, and for these the fewest bits, whose certificate of
-/// the change is at most the maximum error. If none is, the smallest bound within the budget is
-/// taken and counted. Integer weights sum to 255 or 65535 exactly, by the largest remainder.
+/// Chooses per vertex the smallest number of influences, and for these the fewest bits, at which
+/// one of two choices has a certificate of the change of at most the maximum error: the largest
+/// influences, divided by their sum; or those that are left when one after another gives its weight
+/// to the bone that moves most like its own. If none has, the smallest bound within the budget is
+/// taken and counted. Weight that crosses a slide without a range has no bound here, however small.
+/// Integer weights sum to 255 or 65535 exactly, by the largest remainder.
 /// @return the faults of append_difference(); invalid_argument for the budget. O(V n^2), allocates.
 [[nodiscard]] SUNDER_API Result<CertifiedInfluences> certified_influences(
     const Character& character, const ModelPose& bind, const JointTree& tree, std::uint32_t mesh,
