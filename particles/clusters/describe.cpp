@@ -190,13 +190,19 @@ void describe_front(Tape& tape, RepairScratch& of, const Band& band, Index point
   of.band_front.for_each_met([&](Index point) {
     tape(of.beside[point].chain);
     tape(of.beside[point].place);
-    if (!tape.is_reading() || band.growing != kNone) return;
-    // Points that the front has not visited have what an earlier band left there.
+  });
+  if (!tape.is_reading() || band.growing != kNone) return;
+  // Points beside a lip are found from those that the front has visited, and where it starts. The
+  // others have what an earlier band left there.
+  const auto check = [&](Index point) {
     const BesideLip beside = of.beside[point];
-    if (of.band_front.has_visited(point))
-      tape.require(beside.chain < band.chains.size() &&
-                       beside.place < band.chains[beside.chain].places.size(),
-                   "a point is beside a chain that does not exist");
+    tape.require(beside.chain < band.chains.size() &&
+                     beside.place < band.chains[beside.chain].places.size(),
+                 "a point is beside a chain that does not exist");
+  };
+  of.band_front.for_each_start(check);
+  of.band_front.for_each_met([&](Index point) {
+    if (of.band_front.has_visited(point)) check(point);
   });
 }
 

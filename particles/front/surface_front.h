@@ -82,6 +82,12 @@ class SurfaceFront {
   void for_each_met(Visit visit) const {
     for (const Entry& entry : entries_) visit(entry.point);
   }
+  /// Calls visit(point) for each point at which it starts; some are repeated.
+  template <class Visit>
+  void for_each_start(Visit visit) const {
+    for (const Entry& entry : entries_)
+      if (entry.from == kNone) visit(entry.point);
+  }
   /// Whether run() has visited a point. It knows a distance of some points beyond the limit too.
   [[nodiscard]] bool has_visited(Index point) const { return distance(point) < limit_; }
   /// Whether no point is left to reach.
