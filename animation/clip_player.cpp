@@ -66,6 +66,16 @@ Status check_fade(float weight, double seconds) {
                          static_cast<double>(weight), seconds);
 }
 
+bool is_finite(const Pose& pose) {
+  return std::all_of(pose.parent_from_bone.begin(), pose.parent_from_bone.end(),
+                     [](const BoneTransform& bone) {
+                       return bone.translation.allFinite() && bone.scale.allFinite() &&
+                              bone.rotation.coeffs().allFinite();
+                     }) &&
+         std::all_of(pose.morph_weights.begin(), pose.morph_weights.end(),
+                     [](float weight) { return std::isfinite(weight); });
+}
+
 Status check_mask(const BoneMask& mask, std::size_t bones) {
   if (mask.bones.size() != bones)
     return Status::failure(StatusCode::size_mismatch, kNone,
@@ -123,6 +133,9 @@ Status ClipPlayer::State::check(const Clip* clip, const LayerOptions& options) c
        options.reference->morph_weights.size() != rest.morph_weights.size()))
     return Status::failure(StatusCode::size_mismatch, kNone,
                            "the reference pose of a layer is not of this character");
+  if (options.reference != nullptr && !is_finite(*options.reference))
+    return Status::failure(StatusCode::non_finite_value, kNone,
+                           "the reference pose of a layer is not finite");
   return options.mask == nullptr ? Status()
                                  : check_mask(*options.mask, rest.parent_from_bone.size());
 }
@@ -344,6 +357,9 @@ Status ClipPlayer::restore(const ClipPlayerState& kept) {
       layer.fade = {from.fade.from, from.fade.to, from.fade.elapsed, from.fade.seconds,
                     from.fade.easing};
       layer.phase = from.phase;
+      if (!(layer.phase <= layer.period()))
+        return Status::failure(StatusCode::invalid_argument, from.slot,
+                               "the layer in slot %u is beyond the end of its clip", from.slot);
       layer.ends_after_fade = from.ends_after_fade;
       layer.ends_others_after_fade = from.ends_others_after_fade;
       playing.push_back(from.slot);

@@ -4,15 +4,19 @@
 
 #include "particles/body_state.h"
 #include "particles/clusters/tape.h"
+#include "particles/internal/recorded_limits.h"
 
 namespace sunder {
 namespace {
 
 using particles::BodyState;
+using particles::kMostRecordedForce;
+using particles::kMostRecordedLength;
+using particles::kMostRecordedSeconds;
 using particles::Motion;
 using particles::Tape;
 
-constexpr std::uint32_t kVersion = 5;
+constexpr std::uint32_t kVersion = 6;
 
 Status out_of_memory() {
   return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
@@ -37,23 +41,29 @@ void describe(Tape& tape, Collider& of) {
     if (kind == 2) of.shape = Collider::Box();
     if (kind == 3) of.shape = Collider::HalfSpace();
   }
-  if (auto* sphere = std::get_if<Collider::Sphere>(&of.shape)) tape(sphere->radius);
+  const auto length = [&](double& value) { tape.within(value, 0, kMostRecordedLength); };
+  if (auto* sphere = std::get_if<Collider::Sphere>(&of.shape)) length(sphere->radius);
   if (auto* capsule = std::get_if<Collider::Capsule>(&of.shape)) {
-    tape(capsule->radius);
-    tape(capsule->half_length);
+    length(capsule->radius);
+    length(capsule->half_length);
   }
-  if (auto* box = std::get_if<Collider::Box>(&of.shape)) tape(box->half_size);
-  tape(of.place);
+  if (auto* box = std::get_if<Collider::Box>(&of.shape))
+    tape.within(box->half_size, kMostRecordedLength);
+  tape.within(of.place, kMostRecordedLength);
   for (int i = 0; i < 4; ++i) tape(of.turn.coeffs()[i]);
-  tape(of.friction);
+  tape.within(of.friction, 0, kMostRecordedForce);
   if (!tape.is_reading()) return;
   if (const Status status = validate_collider(of); !status)
     tape.fail(status.code(), "a collider is invalid");
 }
 
 void describe(Tape& tape, std::vector<Collider>& of) {
-  of.resize(tape.size(of.size()), Collider{Collider::HalfSpace()});
-  for (Collider& collider : of) describe(tape, collider);
+  const std::size_t count = tape.size(of.size());
+  if (tape.is_reading()) of.clear();
+  for (std::size_t i = 0; i < count && tape.status(); ++i) {
+    if (tape.is_reading()) of.push_back(Collider{Collider::HalfSpace()});
+    describe(tape, of[i]);
+  }
 }
 
 /// The parts of a body that a recorded state contains, and that are restored together.
@@ -72,12 +82,6 @@ struct Recorded {
     bool is_changed = false;
     ContactReport report;
   } contact;
-  struct Shown {
-    std::vector<Vec4f> displacements;
-    std::vector<Mat3f> turns;
-    std::vector<std::uint8_t> is_displaced;
-    Index displaced_count = 0;
-  } shown;
 };
 
 Recorded recorded(const BodyState& state) {
@@ -98,35 +102,39 @@ Recorded recorded(const BodyState& state) {
           {{colliders.begin(), colliders.end()},
            {before.begin(), before.end()},
            state.contact.is_changed(),
-           state.contact.report()},
-          {state.shown.displacements, state.shown.turns, state.shown.is_displaced,
-           state.shown.displaced_count}};
+           state.contact.report()}};
 }
 
 void describe(Tape& tape, Motion& of) {
   tape.all(of.serials);
   tape.all(of.material_of);
-  for (auto* column : {&of.displacements, &of.velocities, &of.starts, &of.forces, &of.lip_forces,
-                       &of.winds, &of.quiet.from, &of.quiet.pulls})
-    tape.all(*column);
+  const auto pass = [&](std::vector<Vec3d>& column, double most) {
+    tape.each(column, [&](Vec3d& value) { tape.within(value, most); });
+  };
+  for (auto* column : {&of.displacements, &of.velocities, &of.starts, &of.quiet.from})
+    pass(*column, kMostRecordedLength);
+  for (auto* column : {&of.forces, &of.lip_forces, &of.winds, &of.quiet.pulls})
+    pass(*column, kMostRecordedForce);
   for (auto* flags : {&of.awake, &of.touched, &of.bound, &of.tired})
     tape.each(*flags, [&](std::uint8_t& flag) { tape.small(flag, 2); });
-  tape.all(of.quiet.seconds);
+  tape.each(of.quiet.seconds,
+            [&](double& seconds) { tape.within(seconds, 0, kMostRecordedSeconds); });
   of.awake_count = 0;
   for (const std::uint8_t awake : of.awake) of.awake_count += awake;
 }
 
 void describe(Tape& tape, Recorded& of, const ParticleSet& set) {
   tape(of.revision);
-  const std::size_t materials = of.materials.size();
-  tape.size(of.materials);
-  tape.require(of.materials.size() == materials, "the body has another number of materials");
+  tape.require(tape.size(of.materials.size()) == of.materials.size(),
+               "the body has another number of materials");
   for (SoftMaterial& material : of.materials) describe(tape, material);
   describe(tape, of.motion);
   tape(of.is_graph_stale);
   of.rests.describe(tape);
-  tape(of.gravity);
-  for (double* value : {&of.tension, &of.time, &of.still_seconds}) tape(*value);
+  tape.within(of.gravity, kMostRecordedForce);
+  tape.within(of.tension, 0, kMostRecordedForce);
+  for (double* seconds : {&of.time, &of.still_seconds})
+    tape.within(*seconds, 0, kMostRecordedSeconds);
   tape(of.adds_pose_strain);
   tape(of.is_tension_stale);
   tape(of.is_disturbed);
@@ -135,21 +143,14 @@ void describe(Tape& tape, Recorded& of, const ParticleSet& set) {
   describe(tape, of.contact.before);
   tape(of.contact.is_changed);
   tape(of.contact.report.points);
-  tape(of.contact.report.deepest);
-  tape.all(of.shown.displacements);
-  tape.all(of.shown.turns);
-  tape.each(of.shown.is_displaced, [&](std::uint8_t& flag) { tape.small(flag, 2); });
-  of.shown.displaced_count = 0;
-  for (const std::uint8_t displaced : of.shown.is_displaced) of.shown.displaced_count += displaced;
+  tape.within(of.contact.report.deepest, 0, kMostRecordedLength);
 }
 
 /// Whether all arrays have an entry per particle.
 bool has_count(const Recorded& of, std::size_t count) {
   const Motion& motion = of.motion;
   bool has = motion.serials.size() == count && motion.material_of.size() == count &&
-             motion.quiet.seconds.size() == count && of.rests.count() == count &&
-             of.shown.displacements.size() == count && of.shown.turns.size() == count &&
-             of.shown.is_displaced.size() == count;
+             motion.quiet.seconds.size() == count && of.rests.count() == count;
   for (const auto* column :
        {&motion.displacements, &motion.velocities, &motion.starts, &motion.forces,
         &motion.lip_forces, &motion.winds, &motion.quiet.from, &motion.quiet.pulls})
@@ -159,21 +160,29 @@ bool has_count(const Recorded& of, std::size_t count) {
   return has;
 }
 
-Status check(const Recorded& of, const BodyState& state) {
+/// Whether particles and holds are those of the set.
+bool is_of_set(Recorded& of, const ParticleSet& set) {
+  if (of.motion.count() != set.particle_count()) return false;
+  for (Index p = 0; p < of.motion.count(); ++p)
+    if (of.motion.serials[p] != set.serial(p)) return false;
+  return of.holds.find_held(set);
+}
+
+Status check(Recorded& of, const BodyState& state) {
   const std::size_t count = of.motion.displacements.size();
   if (!has_count(of, count))
     return Status::failure(StatusCode::size_mismatch, kNone,
                            "a recorded state of a soft body has arrays of different sizes");
-  const bool is_of_set =
-      of.revision != state.set->revision() || count == state.set->particle_count();
-  if (!is_of_set || of.revision > state.set->revision())
+  // An older state follows the set in the next call.
+  if (of.revision > state.set->revision() ||
+      (of.revision == state.set->revision() && !is_of_set(of, *state.set)))
     return Status::failure(StatusCode::size_mismatch, kNone,
-                           "a recorded state of a soft body has %zu particles, the set has %u",
+                           "a recorded state of a soft body has %zu particles, or holds, that are "
+                           "not those of the set, which has %u particles",
                            count, state.set->particle_count());
-  if (of.contact.colliders.size() != of.contact.before.size() || of.tension < 0 || of.time < 0 ||
-      of.still_seconds < 0)
+  if (of.contact.colliders.size() != of.contact.before.size())
     return Status::failure(StatusCode::invalid_argument, kNone,
-                           "a recorded state of a soft body has invalid settings");
+                           "a recorded state of a soft body has other colliders than before");
   for (const Index material : of.motion.material_of)
     if (material >= of.materials.size())
       return Status::failure(StatusCode::index_out_of_range, material,
@@ -181,17 +190,26 @@ Status check(const Recorded& of, const BodyState& state) {
   return {};
 }
 
+/// The motion that renderers read.
+particles::ShownMotion shown_of(const Recorded& of) {
+  particles::ShownMotion shown;
+  for (Index p = 0; p < of.motion.count(); ++p) {
+    const Vec3d& u = of.motion.displacements[p];
+    shown.displacements.emplace_back() << u.cast<float>(), 0.0f;
+    shown.turns.emplace_back(of.rests.turn(p).cast<float>());
+    shown.is_displaced.push_back(u != Vec3d::Zero() ? 1 : 0);
+    shown.displaced_count += shown.is_displaced.back();
+  }
+  return shown;
+}
+
 void set_state(Recorded&& of, BodyState& state) {
   state.contact.follow(static_cast<Index>(of.motion.displacements.size()));
   state.contact.restore(of.contact.colliders, of.contact.before, of.contact.is_changed,
                         of.contact.report);
-  particles::ShownMotion shown;
-  shown.displacements = std::move(of.shown.displacements);
-  shown.turns = std::move(of.shown.turns);
-  shown.is_displaced = std::move(of.shown.is_displaced);
-  shown.displaced_count = of.shown.displaced_count;
-  shown.displaced_key = state.shown.displaced_key + 1;
-  state.shown = std::move(shown);
+  const std::uint64_t key = state.shown.displaced_key + 1;
+  state.shown = shown_of(of);
+  state.shown.displaced_key = key;
   state.revision = of.revision;
   state.materials = std::move(of.materials);
   state.motion = std::move(of.motion);
@@ -230,6 +248,7 @@ Status SoftBody::restore(const StateArrays& arrays) {
                            "a recorded state of a soft body has version %u; this library reads %u",
                            arrays.version, kVersion);
   try {
+    state_->follow_particles();
     Tape tape = Tape::reader(arrays);
     Recorded of = recorded(*state_);
     describe(tape, of, *state_->set);

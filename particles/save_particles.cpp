@@ -5,6 +5,7 @@
 #include "particles/clusters/describe.h"
 #include "particles/clusters/gradients.h"
 #include "particles/clusters/set_data.h"
+#include "particles/clusters/validate.h"
 
 namespace sunder {
 namespace {
@@ -13,7 +14,7 @@ using particles::Change;
 using particles::Structure;
 using particles::Tape;
 
-constexpr std::uint32_t kVersion = 4;
+constexpr std::uint32_t kVersion = 5;
 
 Status out_of_memory() {
   return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
@@ -90,7 +91,7 @@ Result<ParticleSet> ParticleSet::restore(std::shared_ptr<const ParticleAsset> as
     particles::describe(tape, *data->own, shared);
     tape.end();
     if (!tape.status()) return tape.status();
-    if (Status status = particles::validate(*data->own, model); !status) return status;
+    if (Status status = particles::validate(*data->own, shared, model); !status) return status;
     complete(model, *data->own);
     return ParticleSet(std::move(data));
   } catch (const std::bad_alloc&) {

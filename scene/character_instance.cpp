@@ -4,7 +4,7 @@
 #include <new>
 #include <utility>
 
-#include "scene/actor/check_pose.h"
+#include "scene/snapshot/check_pose.h"
 #include "scene/actor/piece_tissue.h"
 #include "scene/instance_state.h"
 
@@ -366,7 +366,11 @@ Status CharacterInstance::restore_tissue(const TissueState& wanted) {
   Result<ParticleSet> set =
       ParticleSet::restore(state.shared().particles, state.torn->model, wanted.particles);
   if (!set) return set.error();
-  return state.restore_tissue(*soft, std::move(*set), wanted.body);
+  try {
+    return state.restore_tissue(*soft, std::move(*set), wanted.body);
+  } catch (const std::bad_alloc&) {
+    return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
+  }
 }
 
 bool CharacterInstance::is_in_stroke() const {

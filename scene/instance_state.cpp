@@ -47,20 +47,15 @@ Status CharacterInstance::State::prepare_to_tear() {
   return torn->particles ? torn->particles->prepare_to_follow() : Status();
 }
 
-Status CharacterInstance::State::restore_tissue(const SoftTissue& soft, ParticleSet set,
+Status CharacterInstance::State::restore_tissue(const SoftTissue& soft, ParticleSet of_instance,
                                                 const StateArrays& of_body) {
-  std::optional<SoftBody> body_before = std::move(torn->body);
-  std::unique_ptr<ParticleSet> set_before = std::move(torn->particles);
-  Status status = torn->make_body(soft, std::move(set));
-  if (status) status = torn->body->restore(of_body);
-  if (status) {
-    needs_draw = true;
-    return status;
-  }
-  torn->body.reset();
-  torn->particles = std::move(set_before);
-  torn->body = std::move(body_before);
-  return status;
+  auto set = std::make_unique<ParticleSet>(std::move(of_instance));
+  Result<SoftBody> body = scene::make_body(soft, torn->model.source(), *set);
+  if (!body) return body.error();
+  if (Status status = body->restore(of_body); !status) return status;
+  torn->take(std::move(set), std::move(*body));
+  needs_draw = true;
+  return {};
 }
 
 Status CharacterInstance::State::require_drawn() {

@@ -48,7 +48,7 @@ struct CharacterInstance::State {
   Status require_torn();
   /// The same, and all memory for it.
   Status prepare_to_tear();
-  /// Replaces the soft body. @throws nothing; a failure changes nothing.
+  /// Replaces the soft body. A failure changes nothing. @throws std::bad_alloc
   Status restore_tissue(const SoftTissue& soft, ParticleSet set, const StateArrays& body);
   /// Makes what draw() needs, if it is not there. @throws std::bad_alloc
   Status require_drawn();

@@ -1,19 +1,24 @@
 #include <sunder/core/memory_scope.h>
 
-#include <algorithm>
-#include <cmath>
+#include <array>
 #include <new>
 
 #include "scene/saved_instance.h"
 #include "scene/scene_state.h"
 #include "scene/snapshot/asset_digest.h"
+#include "scene/snapshot/checksum.h"
+#include "scene/snapshot/restore_budget.h"
 
 namespace sunder {
 namespace scene {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x444E5553;  // "SUND"
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3;
+/// The magic number, the version, and the checksum of what follows.
+constexpr std::size_t kHeaderBytes = 4 + 4 + 8;
+/// The times of a scene, seconds: 30,000 years, so that adding a frame goes on.
+constexpr double kMostSeconds = 1e12;
 
 /// All but the digest of the asset, which says how poses are read.
 template <class Archive>
@@ -33,11 +38,10 @@ using Assets = std::span<const std::shared_ptr<const CharacterAsset>>;
 /// Finds assets by their digests.
 class AssetTable {
  public:
-  AssetTable(Assets assets, const TornCapacity& capacity) : capacity_(capacity) {
+  explicit AssetTable(Assets assets) {
     for (const auto& asset : assets)
       if (asset) entries_.push_back({digest_of(*asset), asset});
   }
-  [[nodiscard]] const TornCapacity& capacity() const { return capacity_; }
   [[nodiscard]] std::shared_ptr<const CharacterAsset> find(std::uint64_t digest) const {
     for (const auto& [of_asset, asset] : entries_)
       if (of_asset == digest) return asset;
@@ -50,7 +54,6 @@ class AssetTable {
     std::shared_ptr<const CharacterAsset> asset;
   };
   std::vector<Entry> entries_;
-  TornCapacity capacity_;  ///< Of all instances.
 };
 
 Result<SavedInstance> describe(const Actor& actor) {
@@ -79,28 +82,52 @@ Result<SavedInstance> describe(const Actor& actor) {
   return saved;
 }
 
-Status replay(const SavedInstance& saved, CharacterInstance& instance) {
+Status replay(const SavedInstance& saved, const RestoreBudget& budget,
+              CharacterInstance& instance) {
   if (!saved.is_prepared) return {};
   if (Status status = instance.prepare_to_tear(); !status) return status;
+  if (Status status = budget.check_memory(instance.memory_bytes()); !status) return status;
   for (const std::vector<Operation>* operations : {&saved.done, &saved.undone})
-    for (const Operation& operation : *operations)
+    for (const Operation& operation : *operations) {
       if (const auto report = instance.apply(operation); !report) return report.error();
+      if (Status status = budget.check_memory(instance.memory_bytes()); !status) return status;
+    }
   for (std::size_t i = 0; i < saved.undone.size(); ++i)
     if (Status status = instance.undo(); !status) return status;
+  return {};
+}
+
+Status damaged(const char* what) {
+  return Status::failure(StatusCode::malformed_file, kNone, "the snapshot is damaged: %s", what);
+}
+
+/// Whether the parts of an instance go together.
+Status check_parts(const SavedInstance& saved, const CharacterInstance& made) {
+  if (!saved.is_prepared && !(saved.done.empty() && saved.undone.empty()))
+    return damaged("an instance without a torn model has operations");
+  if (saved.tissue.has_value() != (made.body() != nullptr))
+    return damaged("an instance has tissue where there is none, or none where there is some");
+  if (saved.is_prepared && (made.model()->undo_count() != saved.done.size() ||
+                            made.model()->redo_count() != saved.undone.size()))
+    return damaged("an operation of an instance does nothing");
   return {};
 }
 
 /// Makes an instance as it was saved.
 Result<std::unique_ptr<Actor>> revive(const SavedInstance& saved,
                                       const std::shared_ptr<const CharacterAsset>& asset,
-                                      const TornCapacity& capacity) {
-  Result<CharacterInstance> instance = CharacterInstance::create(asset, capacity);
+                                      double now, RestoreBudget& budget) {
+  if (Status status = budget.take_operations(saved.done.size() + saved.undone.size()); !status)
+    return status;
+  Result<CharacterInstance> instance = CharacterInstance::create(asset, budget.capacity());
   if (!instance) return instance.error();
-  if (Status status = replay(saved, *instance); !status) return status;
+  if (Status status = replay(saved, budget, *instance); !status) return status;
+  if (Status status = check_parts(saved, *instance); !status) return status;
   auto actor = std::make_unique<Actor>(std::move(*instance), saved.actor.is_visible, 0.0);
-  if (Status status = actor->restore(saved.actor); !status) return status;
+  if (Status status = actor->restore(saved.actor, now); !status) return status;
   if (saved.tissue)
     if (Status status = actor->instance.restore_tissue(*saved.tissue); !status) return status;
+  if (Status status = budget.take_memory(actor->memory_bytes()); !status) return status;
   return actor;
 }
 
@@ -109,8 +136,9 @@ Status in_slot(std::size_t slot, const Status& status) {
                          status.text().data());
 }
 
-/// Reads one slot. @param actor  null for a free one.
-Status read_slot(SnapshotReader& reader, const AssetTable& assets, Slot& slot) {
+/// Reads one slot. @param now  time of the scene. @param slot  without an actor if it is free.
+Status read_slot(SnapshotReader& reader, const AssetTable& assets, double now,
+                 RestoreBudget& budget, Slot& slot) {
   bool has_instance = false;
   reader(slot.generation, has_instance);
   if (reader.has_failed()) return broken(reader);
@@ -126,13 +154,40 @@ Status read_slot(SnapshotReader& reader, const AssetTable& assets, Slot& slot) {
                                  static_cast<unsigned long long>(saved.asset));
   PoseMemory poses(asset->character(), {});
   reader.poses = &poses;
+  reader.limit_memory(budget.memory());
   transfer_instance(reader, saved);
+  if (reader.is_too_large()) return budget.check_memory(budget.memory() + 1);
   if (reader.has_failed()) return broken(reader);
-  Result<std::unique_ptr<Actor>> actor = revive(saved, asset, assets.capacity());
+  Result<std::unique_ptr<Actor>> actor = revive(saved, asset, now, budget);
   if (!actor) return actor.error();
   slot.actor = std::move(*actor);
   slot.actor->set_origins(std::move(poses.read_origins()));
   return {};
+}
+
+/// The head of a snapshot that this build reads, and whose bytes are those that were written.
+Status check_header(std::span<const std::byte> snapshot) {
+  SnapshotReader reader(snapshot);
+  std::uint32_t magic = 0, version = 0;
+  std::uint64_t checksum = 0;
+  reader(magic, version, checksum);
+  if (magic != kMagic)
+    return Status::failure(StatusCode::unsupported_format, 0, "this is not a snapshot of a scene");
+  if (version != kVersion)
+    return Status::failure(StatusCode::unsupported_format, 4,
+                           "the snapshot has version %u; this build reads %u", version, kVersion);
+  if (reader.has_failed()) return broken(reader);
+  if (checksum_of(snapshot.subspan(kHeaderBytes)) != checksum)
+    return Status::failure(StatusCode::malformed_file, 8,
+                           "the snapshot is damaged: its checksum is not that of its bytes");
+  return {};
+}
+
+/// Writes the checksum into a snapshot that is complete.
+void seal(std::vector<std::byte>& snapshot) {
+  const std::uint64_t checksum = checksum_of(std::span(snapshot).subspan(kHeaderBytes));
+  for (std::size_t i = 0; i < 8; ++i)
+    snapshot[8 + i] = static_cast<std::byte>(checksum >> (8 * i));
 }
 
 }  // namespace
@@ -143,9 +198,9 @@ Result<std::vector<std::byte>> Scene::save() const {
     scene::SnapshotWriter writer;
     auto magic = scene::kMagic, version = scene::kVersion;
     auto slots = static_cast<Index>(state_->slots.size());
-    std::uint64_t frame = state_->stats.frame;
+    std::uint64_t frame = state_->stats.frame, checksum = 0;
     double now = state_->now;
-    writer(magic, version, now, frame, state_->free_slots, slots);
+    writer(magic, version, checksum, now, frame, state_->free_slots, slots);
     for (std::size_t i = 0; i < state_->slots.size(); ++i) {
       scene::Slot& slot = state_->slots[i];
       bool has_instance = slot.actor != nullptr;
@@ -158,6 +213,7 @@ Result<std::vector<std::byte>> Scene::save() const {
       writer(saved->asset);
       scene::transfer_instance(writer, *saved);
     }
+    scene::seal(writer.bytes());
     return std::move(writer.bytes());
   } catch (const std::bad_alloc&) {
     return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
@@ -165,30 +221,27 @@ Result<std::vector<std::byte>> Scene::save() const {
 }
 
 Status Scene::restore(std::span<const std::byte> snapshot, scene::Assets assets,
-                      const TornCapacity& capacity) {
+                      const RestoreOptions& options) {
   const MemoryScope scope(state_->options.memory);
   try {
+    if (Status status = scene::check_header(snapshot); !status) return status;
     scene::SnapshotReader reader(snapshot);
-    std::uint32_t magic = 0, version = 0, slots = 0;
+    std::array<std::uint64_t, scene::kHeaderBytes / 8> header{};
+    std::uint32_t slots = 0;
     double now = 0;
     std::uint64_t frame = 0;
     std::vector<Index> free_slots;
-    reader(magic, version);
-    if (magic != scene::kMagic)
-      return Status::failure(StatusCode::unsupported_format, 0,
-                             "this is not a snapshot of a scene");
-    if (version != scene::kVersion)
-      return Status::failure(StatusCode::unsupported_format, 4,
-                             "the snapshot has version %u; this build reads %u", version,
-                             scene::kVersion);
-    reader(now, frame, free_slots, slots);
-    if (!reader.has_failed() && (!std::isfinite(now) || slots > reader.remaining()))
+    reader(header, now, frame, free_slots, slots);
+    if (!reader.has_failed() &&
+        (!(now >= 0 && now <= scene::kMostSeconds) || slots > reader.remaining()))
       reader.fail("the time or the number of instances cannot be");
     if (reader.has_failed()) return scene::broken(reader);
-    const scene::AssetTable table(assets, capacity);
+    scene::RestoreBudget budget(options);
+    if (Status status = budget.check_places(slots); !status) return status;
+    const scene::AssetTable table(assets);
     std::vector<scene::Slot> made(slots);
     for (std::size_t i = 0; i < made.size(); ++i)
-      if (Status status = scene::read_slot(reader, table, made[i]); !status)
+      if (Status status = scene::read_slot(reader, table, now, budget, made[i]); !status)
         return scene::in_slot(i, status);
     if (reader.remaining() > 0) reader.fail("there are more bytes than instances");
     return reader.has_failed()

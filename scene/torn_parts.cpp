@@ -6,21 +6,29 @@ namespace sunder::scene {
 
 Status TornParts::make_soft(const SoftTissue& soft,
                             const std::shared_ptr<const ParticleAsset>& asset) {
-  Result<ParticleSet> set = ParticleSet::create(asset, model);
-  return set ? make_body(soft, std::move(*set)) : set.error();
+  Result<ParticleSet> made = ParticleSet::create(asset, model);
+  if (!made) return made.error();
+  auto set = std::make_unique<ParticleSet>(std::move(*made));
+  Result<SoftBody> of_set = make_body(soft, model.source(), *set);
+  if (!of_set) return of_set.error();
+  take(std::move(set), std::move(*of_set));
+  return {};
 }
 
-Status TornParts::make_body(const SoftTissue& soft, ParticleSet set) {
-  const Result<ModelPose> rest = rest_pose(model.source());
-  if (!rest) return rest.error();
+void TornParts::take(std::unique_ptr<ParticleSet> set, SoftBody made) {
   body.reset();
-  particles = std::make_unique<ParticleSet>(std::move(set));
-  Result<SoftBody> made = SoftBody::create(*particles, *rest, soft.materials, soft.body);
-  if (!made) return made.error();
+  particles = std::move(set);
+  body.emplace(std::move(made));
+}
+
+Result<SoftBody> make_body(const SoftTissue& soft, const Character& source, ParticleSet& set) {
+  const Result<ModelPose> rest = rest_pose(source);
+  if (!rest) return rest.error();
+  Result<SoftBody> made = SoftBody::create(set, *rest, soft.materials, soft.body);
+  if (!made) return made;
   if (Status status = made->set_gravity(soft.gravity); !status) return status;
   if (Status status = made->set_tension(soft.tension); !status) return status;
-  body.emplace(std::move(*made));
-  return {};
+  return made;
 }
 
 }  // namespace sunder::scene

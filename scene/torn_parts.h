@@ -14,13 +14,17 @@ struct TornParts {
 
   /// Makes a body at rest. @return as the create() of ParticleSet and SoftBody.
   Status make_soft(const SoftTissue& soft, const std::shared_ptr<const ParticleAsset>& asset);
-  /// Makes a body of a set.
-  Status make_body(const SoftTissue& soft, ParticleSet set);
+  /// Takes a set, and a body that was made of it.
+  void take(std::unique_ptr<ParticleSet> set, SoftBody made);
 
   TornModel model;
   std::optional<TearStroke> stroke;  // refers to the model
   std::unique_ptr<ParticleSet> particles;
   std::optional<SoftBody> body;  // refers to the particles
 };
+
+/// A body of a set, at rest. @throws std::bad_alloc
+[[nodiscard]] Result<SoftBody> make_body(const SoftTissue& soft, const Character& source,
+                                         ParticleSet& set);
 
 }  // namespace sunder::scene

@@ -50,11 +50,10 @@ void describe(Tape& tape, ParticleNeighbour& of) {
   tape(of.middles);
 }
 
+/// Influences and owner follow from the memberships; see derive().
 void describe(Tape& tape, Change::OfPoint& of) {
   tape(of.point);
   describe(tape, of.slab);
-  describe(tape, of.influences);
-  tape(of.owner);
   describe(tape, of.lip);
 }
 
@@ -102,13 +101,12 @@ void describe(Tape& tape, std::shared_ptr<const PendingWork>& of) {
   if (tape.is_reading()) of = std::make_shared<const PendingWork>(std::move(work));
 }
 
-bool are_same(const MembershipSlab& a, const MembershipSlab& b) {
-  return a.first == b.first && a.count == b.count;
-}
 bool are_same(const LipPoint& a, const LipPoint& b) {
   return a.tear == b.tear && a.side == b.side && a.older == b.older && a.edge == b.edge;
 }
-bool are_same(const ParticleInfluences& a, const ParticleInfluences& b) { return a == b; }
+bool are_same(const MembershipSlab& a, const MembershipSlab& b) {
+  return a.first == b.first && a.count == b.count;
+}
 bool are_same(Index a, Index b) { return a == b; }
 
 /// Describes an array by the entries that differ from an older one, and those that follow it.
@@ -133,7 +131,6 @@ template <class T, class Describe>
 void describe_tail(Tape& tape, std::vector<T>& now, const std::vector<T>& before,
                    Describe describe_one) {
   std::vector<T> more(now.begin() + static_cast<std::ptrdiff_t>(before.size()), now.end());
-  if (tape.is_reading()) more.clear();
   tape.each(more, describe_one);
   if (!tape.is_reading()) return;
   now.assign(before.begin(), before.end());
@@ -144,8 +141,6 @@ void describe_points(Tape& tape, PointTable& of, const PointTable& before) {
   describe_tail(tape, of.positions, before.positions, [&](Vec3f& at) { tape(at); });
   describe_tail(tape, of.vertices, before.vertices, [&](VertexRef& at) { describe(tape, at); });
   describe_changed(tape, of.slabs, before.slabs);
-  describe_changed(tape, of.influences, before.influences);
-  describe_changed(tape, of.owners, before.owners);
   describe_changed(tape, of.lip_points, before.lip_points);
   // Those after the end are of operations that were undone.
   const auto appended = of.memberships.from(before.memberships.size());
@@ -195,13 +190,19 @@ void describe_front(Tape& tape, RepairScratch& of, const Band& band, Index point
   of.band_front.for_each_met([&](Index point) {
     tape(of.beside[point].chain);
     tape(of.beside[point].place);
-    if (!tape.is_reading() || band.growing != kNone) return;
-    // Points that the front has not visited have what an earlier band left there.
+  });
+  if (!tape.is_reading() || band.growing != kNone) return;
+  // Points beside a lip are found from those that the front has visited, and where it starts. The
+  // others have what an earlier band left there.
+  const auto check = [&](Index point) {
     const BesideLip beside = of.beside[point];
-    if (of.band_front.has_visited(point))
-      tape.require(beside.chain < band.chains.size() &&
-                       beside.place < band.chains[beside.chain].places.size(),
-                   "a point is beside a chain that does not exist");
+    tape.require(beside.chain < band.chains.size() &&
+                     beside.place < band.chains[beside.chain].places.size(),
+                 "a point is beside a chain that does not exist");
+  };
+  of.band_front.for_each_start(check);
+  of.band_front.for_each_met([&](Index point) {
+    if (of.band_front.has_visited(point)) check(point);
   });
 }
 
@@ -305,7 +306,6 @@ void describe(Tape& tape, Structure& of, const Structure& decomposition) {
   describe_points(tape, of.points, decomposition.points);
   describe_vertex_points(tape, of.vertex_points, decomposition.vertex_points);
   describe_each(tape, of.particles);
-  tape.each(of.members.joined, [&](std::vector<Index>& joined) { tape.all(joined); });
   describe_each(tape, of.lips);
   describe_tears(tape, of);
 }

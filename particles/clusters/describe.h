@@ -19,8 +19,4 @@ void describe(Tape& tape, Band& of);
 /// Describes a structure by its differences from the decomposition.
 void describe(Tape& tape, Structure& of, const Structure& decomposition);
 
-/// Checks all indices of a structure, and its size against the model.
-/// @return the first fault.
-[[nodiscard]] Status validate(const Structure& structure, const TornModel& model);
-
 }  // namespace sunder::particles

@@ -7,6 +7,11 @@
 
 namespace sunder::particles {
 
+/// How far from a lip its band reaches; all in metres.
+[[nodiscard]] inline float band_depth(float range, float edge, float length) {
+  return std::min(range, std::max(0.5f * length, edge));
+}
+
 /// The spacing of the small particles of a lip near its tips; all in metres.
 ///
 /// @param range   of the decomposition.

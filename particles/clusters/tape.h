@@ -11,7 +11,8 @@
 namespace sunder::particles {
 
 /// Writes values to StateArrays, or reads them back in the same order: one function describes a
-/// type for both. While reading, values that do not fit are noted, and the rest is read as zeros.
+/// type for both. The arrays may come from strangers: while reading, values that do not fit are
+/// noted, and after the first fault arrays grow no more.
 class Tape {
  public:
   static Tape writer(StateArrays& to) {
@@ -55,6 +56,19 @@ class Tape {
     value = static_cast<Small>(index < count ? index : 0);
   }
   void operator()(bool& value) { small(value, 2); }
+  /// A finite number from `least` to `most`.
+  template <class Scalar>
+  void within(Scalar& value, double least, double most) {
+    (*this)(value);
+    const auto found = static_cast<double>(value);
+    if (is_reading() && !(found >= least && found <= most))
+      fail(StatusCode::invalid_argument, "a number is out of its range");
+  }
+  /// A matrix none of whose numbers is larger than `most`.
+  template <class Scalar, int Rows, int Columns, int Options>
+  void within(Eigen::Matrix<Scalar, Rows, Columns, Options>& matrix, double most) {
+    for (Eigen::Index i = 0; i < matrix.size(); ++i) within(matrix.data()[i], -most, most);
+  }
   template <class Scalar, int Rows, int Columns, int Options>
   void operator()(Eigen::Matrix<Scalar, Rows, Columns, Options>& matrix) {
     for (Eigen::Index i = 0; i < matrix.size(); ++i) (*this)(matrix.data()[i]);
@@ -68,21 +82,22 @@ class Tape {
     fail(StatusCode::size_mismatch, "an array is larger than the data");
     return 0;
   }
-  template <class T>
-  void size(std::vector<T>& values) {
-    values.resize(size(values.size()));
-  }
   /// An array of values of the types above.
   template <class T>
   void all(std::vector<T>& values) {
-    size(values);
-    for (T& value : values) (*this)(value);
+    each(values, [&](T& value) { (*this)(value); });
   }
-  /// An array whose elements `describe` passes.
+  /// An array whose elements `describe` passes. It grows with what is read, not by what a number
+  /// claims.
   template <class T, class Describe>
   void each(std::vector<T>& values, Describe describe) {
-    size(values);
-    for (T& value : values) describe(value);
+    std::size_t count = size(values.size());
+    if (!is_reading()) {
+      for (T& value : values) describe(value);
+      return;
+    }
+    values.clear();
+    for (; count > 0 && status_; --count) describe(values.emplace_back());
   }
 
  private:

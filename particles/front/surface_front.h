@@ -60,8 +60,10 @@ class SurfaceFront {
       tape(entry.path);
       tape(entry.from);
       tape(entry.next);
+      tape.require(entry.point < points && (entry.from == kNone || entry.from < points),
+                   "a point of a front does not exist");
       if (entry.point >= points) entry.point = 0;
-      if (entry.from != kNone && entry.from >= points) entry.from = 0;
+      if (entry.from >= points) entry.from = kNone;
     });
     if (tape.is_reading()) {
       std::fill(known_.begin(), known_.end(), kUnknown);
@@ -79,6 +81,12 @@ class SurfaceFront {
   template <class Visit>
   void for_each_met(Visit visit) const {
     for (const Entry& entry : entries_) visit(entry.point);
+  }
+  /// Calls visit(point) for each point at which it starts; some are repeated.
+  template <class Visit>
+  void for_each_start(Visit visit) const {
+    for (const Entry& entry : entries_)
+      if (entry.from == kNone) visit(entry.point);
   }
   /// Whether run() has visited a point. It knows a distance of some points beyond the limit too.
   [[nodiscard]] bool has_visited(Index point) const { return distance(point) < limit_; }
@@ -136,11 +144,16 @@ class SurfaceFront {
     };
     bool fits = limit_ > 0 && path_limit_ > 0 && per_bucket_ > 0 && !buckets_.empty() &&
                 per_bucket_ * path_limit_ < static_cast<float>(buckets_.size()) &&
-                leads_to_entry(next_);
+                bucket_ <= buckets_.size() && leads_to_entry(next_);
     for (const Index first : buckets_) fits &= leads_to_entry(first);
     for (Index e = 0; e < entries_.size(); ++e)
       fits &= entries_[e].next == kNone || entries_[e].next < e;
-    for (const Entry& entry : entries_) fits &= entry.path >= 0 && entry.path <= path_limit_;
+    for (const Entry& entry : entries_) {
+      const Known known = known_[entry.point];
+      fits &= entry.path >= 0 && entry.path <= path_limit_ &&
+              (entry.from == kNone || has_visited(entry.from)) &&
+              (std::abs(known) <= path_limit_ || known == kUnknown);
+    }
     tape.require(fits, "the state of a front is none");
   }
 

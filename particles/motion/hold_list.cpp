@@ -48,18 +48,32 @@ bool HoldList::remove(HoldId id, ParticleInfluences& whom) {
   return true;
 }
 
+bool HoldList::is_there(const Hold& hold, const ParticleSet& set) {
+  if (hold.point != kNone)
+    return hold.point < set.point_count() && set.influences()[hold.point].weights[0] > 0;
+  return hold.particle < set.particle_count() && set.serial(hold.particle) == hold.serial;
+}
+
+void HoldList::find_held(const ParticleSet& set, Hold& hold) {
+  if (hold.point != kNone)
+    hold.whom = set.influences()[hold.point];
+  else
+    hold.whom = {{hold.particle}, {1.0f}};
+}
+
+bool HoldList::find_held(const ParticleSet& set) {
+  for (Hold& hold : holds_) {
+    if (!is_there(hold, set)) return false;
+    find_held(set, hold);
+  }
+  return true;
+}
+
 void HoldList::follow(const ParticleSet& set) {
-  std::erase_if(holds_, [&](const Hold& hold) {
-    if (hold.point != kNone)
-      return hold.point >= set.point_count() || !(set.influences()[hold.point].weights[0] > 0);
-    return hold.particle >= set.particle_count() || set.serial(hold.particle) != hold.serial;
-  });
+  std::erase_if(holds_, [&](const Hold& hold) { return !is_there(hold, set); });
   for (Hold& hold : holds_) {
     hold.epoch = 0;
-    if (hold.point != kNone)
-      hold.whom = set.influences()[hold.point];
-    else
-      hold.whom = {{hold.particle}, {1.0f}};
+    find_held(set, hold);
   }
 }
 

@@ -2,8 +2,10 @@
 
 #include <sunder/particles/soft_body.h>
 
+#include <cmath>
 #include <limits>
 
+#include "particles/internal/recorded_limits.h"
 #include "particles/motion/coupling.h"
 #include "particles/motion/epoch_pose.h"
 #include "particles/motion/motion.h"
@@ -39,31 +41,41 @@ class HoldList {
   /// step.
   void begin_step(const TornModel& model, const ModelPose& pose, const RestMotion& rests,
                   std::span<const double> masses, EpochPose& poses, Motion& motion);
-  /// Passes its state to a tape.
+  /// Passes its state to a tape. Afterwards find_held() or follow() is to be called.
   template <class Tape>
   void describe(Tape& tape, Index particles, Index points) {
+    HoldId next = 1;
     tape.each(holds_, [&](Hold& hold) {
       tape(hold.id);
       tape(hold.particle);
       tape(hold.point);
       tape(hold.serial);
-      for (Index& particle : hold.whom.particles) tape(particle);
-      for (float& weight : hold.whom.weights) tape(weight);
-      tape(hold.target);
-      tape(hold.stiffness);
-      for (int i = 0; i < 3; ++i) tape.any(hold.last[i]);
-      tape(hold.rest);
+      tape.within(hold.target, kMostRecordedLength);
+      tape.within(hold.stiffness, std::numeric_limits<double>::min(), kMostRecordedForce);
+      for (int i = 0; i < 3; ++i) {
+        tape.any(hold.last[i]);
+        tape.require(!(std::abs(hold.last[i]) > 2 * kMostRecordedLength), "the pull of a hold");
+      }
+      tape.within(hold.rest, kMostRecordedLength);
       tape(hold.epoch);
-      bool fits = hold.point == kNone ? hold.particle < particles
-                                      : hold.particle == kNone && hold.point < points;
-      for (const Index particle : hold.whom.particles) fits &= particle < particles;
-      tape.require(fits && hold.stiffness > 0, "a hold");
+      const bool fits = hold.point == kNone ? hold.particle < particles
+                                            : hold.particle == kNone && hold.point < points;
+      tape.require(fits && hold.id >= next, "a hold");
+      next = hold.id + 1;
     });
     tape(next_);
+    tape.require(next_ >= next && next_ < kMostRecordedNumber, "the number of a hold");
   }
+  /// Finds the particles that move what is held, for holds of this state of the set.
+  /// @return false if a hold is of nothing that is there.
+  [[nodiscard]] bool find_held(const ParticleSet& set);
   [[nodiscard]] std::span<const PointPull> pulls() const { return pulls_; }
 
  private:
+  struct Hold;
+  [[nodiscard]] static bool is_there(const Hold& hold, const ParticleSet& set);
+  static void find_held(const ParticleSet& set, Hold& hold);
+
   struct Hold {
     HoldId id = 0;
     Index particle = kNone, point = kNone;  // one of them

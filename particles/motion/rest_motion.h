@@ -1,5 +1,9 @@
 #pragma once
 
+#include <algorithm>
+
+#include "particles/internal/recorded_limits.h"
+#include "particles/motion/is_rotation.h"
 #include "particles/motion/spring_graph.h"
 
 namespace sunder::particles {
@@ -54,27 +58,37 @@ class RestMotion {
            (decomposition_pose_.model_from_bone.capacity() + pose_.model_from_bone.capacity()) *
                sizeof(Affine3d);
   }
-  /// Passes its state to a tape.
+  /// Passes its state to a tape, but for the decomposition's pose and what follows from it: while
+  /// reading, this object has followed the set.
   template <class Tape>
   void describe(Tape& tape) {
-    tape.each(particles_, [&](Particle& of) {
-      for (Vec3d* vector : {&of.place, &of.velocity, &of.shift}) tape(*vector);
-      for (Mat3d* matrix : {&of.turn, &of.turn_of_step, &of.decomposition_from_bind}) tape(*matrix);
-      tape(of.size);
-      tape(of.epoch);
-    });
-    for (ModelPose* pose : {&decomposition_pose_, &pose_}) {
-      std::uint64_t bones = pose->model_from_bone.size();
-      tape(bones);
-      tape.require(bones == pose->model_from_bone.size(), "a pose has another number of bones");
-      for (Affine3d& bone : pose->model_from_bone)
-        for (int i = 0; i < 12; ++i) tape(bone.matrix()(i % 3, i / 3));
-      std::uint64_t weights = pose->morph_weights.size();
-      tape(weights);
-      tape.require(weights == pose->morph_weights.size(), "a pose has other morph weights");
-      for (float& weight : pose->morph_weights) tape(weight);
-    }
+    const std::vector<Particle> own = particles_;
     tape(epoch_);
+    tape.require(epoch_ < kMostRecordedNumber, "the number of a pose");
+    tape.each(particles_, [&](Particle& of) {
+      for (Vec3d* vector : {&of.place, &of.velocity, &of.shift})
+        tape.within(*vector, kMostRecordedLength);
+      for (Mat3d* matrix : {&of.turn, &of.turn_of_step}) {
+        tape(*matrix);
+        tape.require(is_rotation(*matrix), "the turn of a particle is no rotation");
+      }
+      tape.within(of.size, 0, kMostRecordedLength);
+      tape(of.epoch);
+      tape.require(of.epoch <= epoch_, "the pose of a particle");
+    });
+    for (std::size_t p = 0; p < std::min(own.size(), particles_.size()); ++p)
+      particles_[p].decomposition_from_bind = own[p].decomposition_from_bind;
+    std::uint64_t bones = pose_.model_from_bone.size();
+    tape(bones);
+    tape.require(bones == pose_.model_from_bone.size(), "a pose has another number of bones");
+    for (Affine3d& bone : pose_.model_from_bone)
+      for (int i = 0; i < 12; ++i)
+        tape.within(bone.matrix()(i % 3, i / 3), -kMostRecordedLength, kMostRecordedLength);
+    std::uint64_t weights = pose_.morph_weights.size();
+    tape(weights);
+    tape.require(weights == pose_.morph_weights.size(), "a pose has other morph weights");
+    for (float& weight : pose_.morph_weights)
+      tape.within(weight, -kMostRecordedLength, kMostRecordedLength);
     tape(is_gap_);
     tape.all(carried_);
     for (const Index p : carried_) tape.require(p < particles_.size(), "a carried particle");

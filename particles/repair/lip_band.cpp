@@ -95,7 +95,7 @@ float set_sizes(const Structure& structure, bool is_final, std::span<LipChain> c
   const float edge = structure.character.edge_length;
   float deepest = 0;
   for (LipChain& chain : chains) {
-    chain.depth = std::min(range, std::max(0.5f * chain.length, edge));
+    chain.depth = band_depth(range, edge, chain.length);
     deepest = std::max(deepest, chain.depth);
     const float spacing = lip_spacing(range, edge, chain.length);
     chain.spacing = is_final && spacing <= kMostSpacingRanges * range ? spacing : 0;

@@ -8,7 +8,7 @@
 #include <system_error>
 #include <utility>
 
-#include "scene/actor/check_pose.h"
+#include "scene/snapshot/check_pose.h"
 
 namespace sunder::scene {
 namespace {
@@ -84,7 +84,8 @@ Status Actor::animate() {
   }
   frame.was_sampled = true;
   has_new_pose_ = true;
-  return playback_.sample(character, pose_);
+  if (Status status = playback_.sample(character, pose_); !status) return status;
+  return check_pose(character, pose_);  // clips, and differences of them, may leave any range
 }
 
 void Actor::work_on_commands(const Frame& of) {
@@ -133,12 +134,14 @@ Actor::State Actor::state() const {
   return state;
 }
 
-Status Actor::restore(const State& state) {
+Status Actor::restore(const State& state, double now) {
   const Character& character = *instance.asset()->character();
-  if (!(state.screen_height > 0) || !std::isfinite(state.now) ||
-      !std::isfinite(state.last_operation) || !std::isfinite(state.player_now))
+  const auto has_been = [&](double time) { return time >= 0 && time <= now; };
+  if (!(state.screen_height > 0) || !has_been(state.now) || !has_been(state.player_now) ||
+      !(state.last_operation >= -kCalm && state.last_operation <= now))
     return Status::failure(StatusCode::malformed_file, kNone,
-                           "the time or the height of an instance is not a number");
+                           "the height of an instance is not above 0, or a time of it is not one "
+                           "of the scene");
   for (const ModelPose* pose : {&state.pose, &state.next_pose})
     if (!pose->model_from_bone.empty())
       if (Status status = check_pose(character, *pose); !status) return status;

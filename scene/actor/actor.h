@@ -96,8 +96,9 @@ class Actor {
   };
   /// @throws std::bad_alloc
   [[nodiscard]] State state() const;
+  /// @param now  time of the scene.
   /// @return the fault of a state that does not fit the instance. @throws std::bad_alloc
-  Status restore(const State& state);
+  Status restore(const State& state, double now);
   /// Moments of clips in whose poses commands were applied.
   [[nodiscard]] std::span<const PoseOrigin> origins() const { return origins_; }
   void set_origins(std::vector<PoseOrigin> origins) { origins_ = std::move(origins); }

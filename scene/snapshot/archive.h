@@ -105,6 +105,20 @@ class SnapshotReader {
 
   explicit SnapshotReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
 
+  /// Limits the memory of what is read from now on.
+  void limit_memory(std::size_t bytes) { memory_ = bytes; }
+  /// Counts memory of what is read. A fault if there is not so much left.
+  void take_memory(std::size_t bytes) {
+    if (has_failed()) return;
+    is_too_large_ = bytes > memory_;
+    if (is_too_large_)
+      fail("it needs too much memory");
+    else
+      memory_ -= bytes;
+  }
+  /// Whether the fault is that of take_memory().
+  [[nodiscard]] bool is_too_large() const { return is_too_large_; }
+
   template <class... Values>
   void operator()(Values&... values) {
     (read(values), ...);
@@ -174,8 +188,11 @@ class SnapshotReader {
   template <class T>
   void read(std::vector<T>& values) {
     values.clear();
-    for (std::size_t count = read_count(); count > 0 && !has_failed(); --count)
+    for (std::size_t count = read_count(); count > 0; --count) {
+      take_memory(sizeof(T));
+      if (has_failed()) return;
       read(values.emplace_back());
+    }
   }
   template <class T, std::size_t N>
   void read(std::array<T, N>& values) {
@@ -207,6 +224,8 @@ class SnapshotReader {
 
   std::span<const std::byte> bytes_;
   std::size_t offset_ = 0;
+  std::size_t memory_ = ~std::size_t{0};  ///< Left.
+  bool is_too_large_ = false;
   const char* fault_ = nullptr;
 };
 

@@ -3,8 +3,11 @@
 #include <sunder/skinning/pose.h>
 
 #include <algorithm>
+#include <cmath>
 #include <new>
 #include <utility>
+
+#include "scene/snapshot/check_pose.h"
 
 namespace sunder::scene {
 namespace {
@@ -95,10 +98,16 @@ void PoseMemory::transfer_pose(SnapshotWriter& writer, const ModelPose& pose) {
   previous_ = pose;
 }
 
+std::size_t PoseMemory::pose_bytes() const {
+  return previous_.model_from_bone.size() * sizeof(Affine3d) +
+         previous_.morph_weights.size() * sizeof(float);
+}
+
 void PoseMemory::read_moment(SnapshotReader& reader, ModelPose& pose) {
   Index clip = 0;
   double time = 0;
   reader(clip, time);
+  if (!std::isfinite(time)) reader.fail("the moment of a pose is not a number");
   if (reader.has_failed()) return;
   Result<ModelPose> found = make_pose(*character_, ClipPose{clip, time});
   if (!found) return reader.fail("a pose is of a clip that the character does not have");
@@ -109,6 +118,7 @@ void PoseMemory::read_moment(SnapshotReader& reader, ModelPose& pose) {
 void PoseMemory::transfer_pose(SnapshotReader& reader, ModelPose& pose) {
   PoseForm form = PoseForm::differences;
   reader(form);
+  reader.take_memory(pose_bytes());
   if (reader.has_failed()) return;
   if (form == PoseForm::moment) return read_moment(reader, pose);
   for_each_number(previous_, [&](auto& number) {
@@ -118,7 +128,9 @@ void PoseMemory::transfer_pose(SnapshotReader& reader, ModelPose& pose) {
                                reader.read_bytes(static_cast<int>(count));
     number = static_cast<std::remove_reference_t<decltype(number)>>(std::bit_cast<double>(bits));
   });
-  if (!reader.has_failed()) pose = previous_;
+  if (reader.has_failed()) return;
+  if (!check_pose(*character_, previous_)) return reader.fail("a number of a pose is out of its range");
+  pose = previous_;
 }
 
 }  // namespace sunder::scene

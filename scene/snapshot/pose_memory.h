@@ -50,6 +50,8 @@ class PoseMemory {
 
  private:
   [[nodiscard]] const PoseOrigin* find_origin(const ModelPose& pose) const;
+  /// Memory of a pose.
+  [[nodiscard]] std::size_t pose_bytes() const;
   void read_moment(SnapshotReader& reader, ModelPose& pose);
   /// Calls visit(double&) for each number of the kept bones and visit(float&) for each morph
   /// weight.

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/internal/ordered.h"
-#include "tear/contact/model_access.h"
+#include "tear/model/model_access.h"
 #include "tear/contact/searches.h"
 #include "tear/operation/cut.h"
 #include "tear/operation/drill.h"

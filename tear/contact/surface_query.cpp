@@ -6,7 +6,7 @@
 #include "core/internal/out_of_memory.h"
 #include "tear/contact/anchor.h"
 #include "tear/contact/describe_contact.h"
-#include "tear/contact/model_access.h"
+#include "tear/model/model_access.h"
 #include "tear/contact/searches.h"
 
 namespace sunder {

@@ -57,10 +57,11 @@ TEST(FuzzSeeds, a_robot_is_read) {
 }
 
 TEST(FuzzSeeds, snapshots_are_restored) {
-  const auto asset = fuzz::make_snapshot_asset();
-  for (const char* const name : {"snapshot/empty.snapshot", "snapshot/torn.snapshot"}) {
+  const fuzz::SnapshotAssets assets = fuzz::make_snapshot_assets();
+  for (const char* const name :
+       {"snapshot/empty.snapshot", "snapshot/torn.snapshot", "snapshot/rich.snapshot"}) {
     Scene scene = fuzz::make_scene();
-    const Status status = scene.restore(bytes_of(seed(name)), {&asset, 1});
+    const Status status = scene.restore(bytes_of(seed(name)), assets);
     EXPECT_TRUE(status) << name << ": " << status.text()
                         << " (write_fuzz_corpus writes it in the present format)";
   }

@@ -46,9 +46,10 @@ void write_replies(const std::string& folder) {
 
 void write_snapshots(const std::string& folder) {
   using namespace sunder;
-  const auto asset = fuzz::make_snapshot_asset();
+  const fuzz::SnapshotAssets assets = fuzz::make_snapshot_assets();
   write(folder + "empty.snapshot", *fuzz::make_scene().save());
-  write(folder + "torn.snapshot", *fuzz::make_torn_scene(asset).save());
+  write(folder + "torn.snapshot", *fuzz::make_torn_scene(assets).save());
+  write(folder + "rich.snapshot", *fuzz::make_rich_scene(assets).save());
 }
 
 /// As operations_of_bytes.h divides its input.

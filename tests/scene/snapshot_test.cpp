@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "fuzz/sealed_snapshot.h"
 #include "support/machine/stress.h"
 #include "support/models/random_operations.h"
 #include "support/models/rigs.h"
@@ -265,7 +266,7 @@ TEST(snapshot, damaged_bytes_are_refused_and_change_nothing) {
     for (std::uint32_t n = random.index(4); n > 0 && !bytes.empty(); --n)
       bytes[random.index(static_cast<std::uint32_t>(bytes.size()))] =
           static_cast<std::byte>(random.index(256));
-    const Status status = scene.restore(bytes, assets);
+    const Status status = scene.restore(fuzz::sealed(bytes), assets);
     if (status) {
       (void)scene.update(kFrame);  // it is another scene, whose clips may play at any speed
       ASSERT_TRUE(scene.restore(before, assets));
@@ -286,6 +287,7 @@ TEST(snapshot, damaged_bytes_are_refused_and_change_nothing) {
   newer = good;
   newer.push_back(std::byte{0});
   EXPECT_EQ(scene.restore(newer, assets).code(), StatusCode::malformed_file);
+  EXPECT_EQ(scene.restore(fuzz::sealed(newer), assets).code(), StatusCode::malformed_file);
 }
 
 TEST(snapshot, a_stroke_has_to_end_first) {

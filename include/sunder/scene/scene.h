@@ -58,6 +58,16 @@ struct SpawnOptions {
   bool is_visible = true;
 };
 
+/// How much a snapshot may make, because it may come from a stranger: a few bytes name an instance
+/// that takes megabytes.
+struct RestoreOptions {
+  TornCapacity capacity;             ///< Of each instance; that of the saved one is not kept.
+  std::uint32_t instances = 65'536;  ///< Places for instances, also those that are free.
+  std::uint64_t operations = 65'536;  ///< Done and undone ones of all instances, replayed one by one.
+  /// Bytes of all instances, as memory_bytes() counts them; while one is read, about as much again.
+  std::size_t memory = std::size_t{1} << 31u;
+};
+
 /// Many characters, updated once per frame: what changed is animated, torn, stepped and posed; what
 /// did not is not even looked at. Cost is in proportion to the instances that are active.
 ///
@@ -151,16 +161,17 @@ class SUNDER_API Scene {
   ///         limit_exceeded: out of memory. O(operations x bones + particles), allocates.
   [[nodiscard]] Result<std::vector<std::byte>> save() const;
   /// Makes the scene one that was saved. It goes on with the same bits, and the same names; engines
-  /// start their buffers anew. What waits in submit() stays. The bytes are not trusted.
-  /// @param assets    those of the instances, in any order; found by digests of their characters
-  ///                  and of how these are divided into particles.
-  /// @param capacity  of each instance; that of the saved one is not kept.
+  /// start their buffers anew. What waits in submit() stays. The bytes are not trusted: a checksum
+  /// finds accidents, then every number is checked.
+  /// @param assets  those of the instances, in any order; found by digests of their characters and
+  ///                of how these are divided into particles.
   /// @return unsupported_format, malformed_file (index: the byte, or the slot), not_found without
-  ///         the asset of an instance, the failure of an operation. The scene is unchanged then.
+  ///         the asset of an instance, limit_exceeded (the text names the limit), the failure of an
+  ///         operation, the fault of a pose, player, set or body. The scene is unchanged then.
   /// O(operations of all instances), allocates.
   Status restore(std::span<const std::byte> snapshot,
                  std::span<const std::shared_ptr<const CharacterAsset>> assets,
-                 const TornCapacity& capacity = {});
+                 const RestoreOptions& options = {});
 
   struct Memory {
     std::size_t assets = 0;     ///< Shared structures, each counted once.

@@ -14,7 +14,9 @@ namespace sunder::test {
 /// Memberships, influences, cells, members, neighbours and vertices agree with one another and with
 /// the model; every point of a face belongs to a particle, every other point to none; weights are
 /// in [0, 1], descend, and sum to one; serial numbers of particles are unique.
-std::vector<std::string> broken_particles(const TornModel& model, const ParticleSet& set);
+/// @param checks_cells  whether cells and their borders are compared with the surface.
+std::vector<std::string> broken_particles(const TornModel& model, const ParticleSet& set,
+                                          bool checks_cells = true);
 
 /// No particle has points of both lips, or of both sides of a gap, of one operation.
 /// @param changes  the records of the operation, call by call.
