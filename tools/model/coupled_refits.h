@@ -1,5 +1,6 @@
 #pragma once
 
+#include <sunder/core/status.h>
 #include <sunder/operation/aimed_operation.h>
 
 #include <span>
