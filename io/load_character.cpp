@@ -42,7 +42,9 @@ Result<LoadedCharacter> load_by_assimp(const std::filesystem::path& file,
                                        const LoadOptions& options) {
   auto imported = contained_import::import_as_glb(file, options);
   if (!imported) return imported.error();
-  auto loaded = gltf::read_character(std::move(imported->glb), {}, options);
+  LoadOptions of_glb = options;
+  if (of_glb.maximum_memory == 0) of_glb.maximum_memory = imported->maximum_memory;
+  auto loaded = gltf::read_character(std::move(imported->glb), {}, of_glb);
   if (!loaded) return refusal_of_import(loaded.error(), file.filename().string());
   LoadReport& report = loaded->report;
   report.format = std::move(imported->report.format);

@@ -20,7 +20,9 @@ bool is_loss(std::string_view code) {
 
 LoadNote note_of(const RobotFinding& finding) {
   LoadNote note;
-  if (finding.severity == RobotSeverity::information)
+  if (finding.code == "import_unfiltered")
+    note.kind = LoadNote::Kind::warning;
+  else if (finding.severity == RobotSeverity::information)
     note.kind = LoadNote::Kind::information;
   else
     note.kind = is_loss(finding.code) ? LoadNote::Kind::dropped : LoadNote::Kind::repaired;

@@ -27,9 +27,4 @@ class AssetFiles {
   [[nodiscard]] std::optional<std::vector<std::byte>> read(std::string_view reference);
 };
 
-/// Reads up to `bytes` bytes at `offset`.
-/// @return the number read, less at the end of the file or after an error.
-std::size_t read_at(const files::Descriptor& descriptor, void* target, std::size_t bytes,
-                    std::size_t offset);
-
 }  // namespace sunder::assimp_import

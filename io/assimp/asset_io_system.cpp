@@ -4,6 +4,8 @@
 #include <cstring>
 #include <utility>
 
+#include "io/files/read_at.h"
+
 namespace sunder::assimp_import {
 namespace {
 
@@ -20,7 +22,7 @@ class AssetStream : public Assimp::IOStream {
   std::size_t Read(void* target, std::size_t size, std::size_t count) override {
     if (size == 0 || count == 0) return 0;
     const std::size_t whole = std::min(count, (bytes_ - at_) / size);
-    const std::size_t got = read_at(descriptor_, target, whole * size, at_);
+    const std::size_t got = files::read_at(descriptor_, target, whole * size, at_);
     at_ += got;
     return got / size;
   }

@@ -13,6 +13,7 @@
 
 #include "io/assimp/failure.h"
 #include "io/assimp/importer_log.h"
+#include "io/files/read_at.h"
 #include "io/import_checks/check_text.h"
 #include "io/import_checks/face_check.h"
 
@@ -45,7 +46,7 @@ bool keep_importer_of(const Format& format, Assimp::Importer& importer) {
 
 std::string beginning_of(const ModelFile& model, std::size_t bytes) {
   std::string text(bytes, '\0');
-  text.resize(read_at(model.file.descriptor, text.data(), text.size(), 0));
+  text.resize(files::read_at(model.file.descriptor, text.data(), text.size(), 0));
   return text;
 }
 

@@ -10,13 +10,15 @@ namespace {
 
 using namespace import_messages;
 
-/// Reads a container of bytes. It grows with the bytes that arrive, not by the declared size.
+/// Reads a container of bytes. It takes address space for the declared size, which was checked, and
+/// memory as bytes arrive: a growing container would hold its bytes twice while it moves them.
 template <class Container>
 Transfer receive_growing(Socket& socket, std::uint64_t bytes, Container& target) {
-  constexpr std::uint64_t kFirst = std::uint64_t{4} << 20;
+  constexpr std::uint64_t kStep = std::uint64_t{4} << 20;
+  target.reserve(bytes);
   std::uint64_t have = 0;
   while (have < bytes) {
-    const std::uint64_t step = std::min(bytes - have, std::max(kFirst, have));
+    const std::uint64_t step = std::min(bytes - have, kStep);
     target.resize(have + step);
     const auto part = std::as_writable_bytes(std::span(target)).subspan(have, step);
     if (const Transfer transfer = socket.receive(part); transfer != Transfer::complete)
@@ -28,18 +30,18 @@ Transfer receive_growing(Socket& socket, std::uint64_t bytes, Container& target)
 
 class Server {
  public:
-  Server(Socket& socket, files::AllowedFiles& allowed, std::uint64_t maximum_reply,
-         const std::function<void(std::uint64_t)>& file_opened)
-      : socket_(socket),
-        allowed_(allowed),
-        maximum_reply_(maximum_reply),
-        file_opened_(file_opened) {}
+  Server(Socket& socket, files::AllowedFiles& allowed, const ConversationRules& rules)
+      : socket_(socket), allowed_(allowed), rules_(rules) {}
 
   Conversation serve() {
     if (!succeeded(socket_.receive_value(result_.ready), Outcome::wrong_helper)) return result_;
     result_.ready.why_not.back() = '\0';
     if (result_.ready.protocol != kProtocol) {
       result_.outcome = Outcome::wrong_helper;
+      return std::move(result_);
+    }
+    if (rules_.requires_filter && result_.ready.has_filter == 0) {
+      result_.outcome = Outcome::unfiltered;
       return std::move(result_);
     }
     for (std::uint64_t requests = 0; requests < kMostRequests; ++requests)
@@ -87,13 +89,13 @@ class Server {
                         .text_bytes = static_cast<std::uint32_t>(text.size()),
                         .bytes = file ? file->bytes : 0};
     const int descriptor = file ? file->descriptor.value() : -1;
-    if (descriptor >= 0) file_opened_(file->bytes);
+    if (descriptor >= 0) rules_.file_opened(file->bytes);
     return succeeded(socket_.send_value(answer, descriptor)) &&
            succeeded(socket_.send(std::as_bytes(std::span(text))));
   }
 
   void receive_reply(const Request& request) {
-    if (request.first > kMostHeadBytes || request.second > maximum_reply_) {
+    if (request.first > kMostHeadBytes || request.second > rules_.maximum_reply()) {
       result_.outcome = Outcome::too_large;
       return;
     }
@@ -104,16 +106,14 @@ class Server {
 
   Socket& socket_;
   files::AllowedFiles& allowed_;
-  std::uint64_t maximum_reply_;
-  const std::function<void(std::uint64_t)>& file_opened_;
+  const ConversationRules& rules_;
   Conversation result_;
 };
 
 }  // namespace
 
-Conversation serve(Socket& socket, files::AllowedFiles& allowed, std::uint64_t maximum_reply,
-                   const std::function<void(std::uint64_t)>& file_opened) {
-  return Server(socket, allowed, maximum_reply, file_opened).serve();
+Conversation serve(Socket& socket, files::AllowedFiles& allowed, const ConversationRules& rules) {
+  return Server(socket, allowed, rules).serve();
 }
 
 }  // namespace sunder::contained_import

@@ -22,6 +22,7 @@ enum class Outcome {
   insatiable,    ///< It asked for files too often.
   failed,        ///< The helper told the cause.
   wrong_helper,  ///< The first message was not that of a helper of this version.
+  unfiltered,    ///< It has no filter of system calls, and the caller requires one.
 };
 
 struct Conversation {
@@ -32,13 +33,19 @@ struct Conversation {
   std::vector<std::byte> body;
 };
 
+struct ConversationRules {
+  bool requires_filter = false;
+  /// The most bytes of the GLB; asked for when the reply begins, and checked before memory is
+  /// taken.
+  std::function<std::uint64_t()> maximum_reply;
+  /// Is called with the size of each opened file, before it is sent.
+  std::function<void(std::uint64_t)> file_opened;
+};
+
 /// Answers the helper's requests until it replies, ends, or the socket's deadline passes. Nothing
-/// that the helper sends is trusted after `ready`. Throws std::bad_alloc.
-///
-/// @param maximum_reply  bytes of the GLB.
-/// @param file_opened    is called with the size of each opened file, before it is sent.
+/// that the helper sends is trusted after `ready`. Holds at most the bytes that arrived, within the
+/// limit. Throws std::bad_alloc.
 [[nodiscard]] Conversation serve(import_messages::Socket& socket, files::AllowedFiles& allowed,
-                                 std::uint64_t maximum_reply,
-                                 const std::function<void(std::uint64_t)>& file_opened);
+                                 const ConversationRules& rules);
 
 }  // namespace sunder::contained_import

@@ -81,9 +81,16 @@ class SpawnPlan {
   std::string program_;  ///< Not the path of the helper, which may lead elsewhere by now.
 };
 
-files::Descriptor descriptor_of_process([[maybe_unused]] pid_t id) {
+/// Refers to the process for good, even after its number is used again. The number itself may be
+/// that of another process already, where the program ignores SIGCHLD or waits for all its
+/// children: but not if the other end of the socket, which only this process has, is still open
+/// afterwards.
+files::Descriptor descriptor_of_process([[maybe_unused]] pid_t id, [[maybe_unused]] int socket) {
 #if defined(SYS_pidfd_open)
-  return files::Descriptor(static_cast<int>(syscall(SYS_pidfd_open, id, 0)));
+  files::Descriptor process(static_cast<int>(syscall(SYS_pidfd_open, id, 0)));
+  pollfd end{socket, 0, 0};
+  const bool has_ended = poll(&end, 1, 0) != 0;
+  return has_ended ? files::Descriptor() : std::move(process);
 #else
   return {};
 #endif
@@ -96,8 +103,7 @@ Result<HelperProcess> HelperProcess::start(const HelperFile& helper, Clock::time
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
     return Status::failure(StatusCode::limit_exceeded, kNone,
                            "cannot create a socket to the importer: %s", std::strerror(errno));
-  files::Descriptor own(ends[0]);
-  const files::Descriptor other(ends[1]);
+  files::Descriptor own(ends[0]), other(ends[1]);
   if (own.value() < 3) {  // where the program may write later
     own = files::Descriptor(fcntl(own.value(), F_DUPFD_CLOEXEC, 3));
     if (!own.is_open())
@@ -111,11 +117,12 @@ Result<HelperProcess> HelperProcess::start(const HelperFile& helper, Clock::time
                                                               : StatusCode::file_unreadable,
                            kNone, "cannot start the importer '%.120s': %s", helper.path.c_str(),
                            std::strerror(error));
+  other.reset();
   return HelperProcess(id, Socket(std::move(own), deadline));
 }
 
 HelperProcess::HelperProcess(pid_t id, Socket socket)
-    : id_(id), process_(descriptor_of_process(id)), socket_(std::move(socket)) {}
+    : id_(id), process_(descriptor_of_process(id, socket.value())), socket_(std::move(socket)) {}
 
 HelperProcess::HelperProcess(HelperProcess&& other) noexcept
     : id_(std::exchange(other.id_, -1)),
@@ -128,12 +135,16 @@ HelperProcess::~HelperProcess() {
 
 void HelperProcess::kill_now() const {
 #if defined(SYS_pidfd_send_signal)
-  if (process_.is_open() &&
-      (syscall(SYS_pidfd_send_signal, process_.value(), SIGKILL, nullptr, 0) == 0 ||
-       errno == ESRCH))
+  if (process_.is_open()) {
+    (void)syscall(SYS_pidfd_send_signal, process_.value(), SIGKILL, nullptr, 0);
     return;
+  }
 #endif
-  kill(id_, SIGKILL);
+  // A child that was not waited for keeps its number. One that somebody else has reaped does not,
+  // and must not be killed by it.
+  siginfo_t about{};
+  if (waitid(P_PID, static_cast<id_t>(id_), &about, WEXITED | WNOHANG | WNOWAIT) == 0)
+    kill(id_, SIGKILL);
 }
 
 int HelperProcess::finish(Clock::time_point deadline) {

@@ -2,6 +2,15 @@
 
 #include <algorithm>
 #include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#if defined(__linux__) && defined(__has_include)
+#if __has_include(<linux/capability.h>)
+#include <linux/capability.h>
+#define SUNDER_HAS_CAPABILITIES 1
+#endif
+#endif
 
 namespace sunder::contained_import {
 
@@ -11,6 +20,18 @@ std::uint64_t import_memory_of(std::uint64_t bytes, const LoadOptions& options) 
                                    ? options.import_memory
                                    : std::max(kLeast, bytes * kPerByte);
   return std::min(wanted, options.import_memory);
+}
+
+bool can_raise_memory_limit() {
+#if defined(SUNDER_HAS_CAPABILITIES)
+  if (geteuid() != 0) return true;
+  __user_cap_header_struct header{_LINUX_CAPABILITY_VERSION_3, 0};
+  __user_cap_data_struct sets[_LINUX_CAPABILITY_U32S_3] = {};
+  return syscall(SYS_capget, &header, sets) == 0 &&
+         (sets[CAP_SYS_RESOURCE / 32].effective >> (CAP_SYS_RESOURCE % 32) & 1) != 0;
+#else
+  return true;
+#endif
 }
 
 void raise_memory_limit([[maybe_unused]] pid_t process, [[maybe_unused]] std::uint64_t by) {

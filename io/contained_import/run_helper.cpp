@@ -23,16 +23,28 @@ using namespace import_messages;
 using assimp_import::ImportedGlb;
 using assimp_import::ModelFile;
 
+bool requires_filter(const LoadOptions& options) {
+  return options.strict || options.requires_filter;
+}
+
+/// An import keeps its scene while it makes the GLB from it, so the GLB of one that was not taken
+/// over has at most half of the memory that the import may use.
+std::uint64_t maximum_reply(std::uint64_t bytes, const LoadOptions& options) {
+  return std::min(options.maximum_bytes, import_memory_of(bytes, options) / 2);
+}
+
 Job job_of(const ModelFile& model, const LoadOptions& options) {
   const double seconds = std::ceil(std::min(options.import_seconds, 1e8));
   return {.name_bytes = static_cast<std::uint32_t>(model.name.size()),
           .model_bytes = model.file.bytes,
           .maximum_bytes = options.maximum_bytes,
-          .memory = import_memory_of(model.file.bytes, options),
+          .memory = can_raise_memory_limit() ? import_memory_of(model.file.bytes, options)
+                                             : options.import_memory,
           .largest_memory = options.import_memory,
           .cpu_seconds = static_cast<std::uint32_t>(seconds) + 1,
           .caller = static_cast<std::int32_t>(getpid()),
-          .strict = options.strict ? 1u : 0u};
+          .strict = options.strict ? 1u : 0u,
+          .requires_filter = requires_filter(options) ? 1u : 0u};
 }
 
 const char* name_of_signal(int signal) {
@@ -73,23 +85,38 @@ Status stopped_by(int signal, const ModelFile& model, const LoadOptions& options
                          "%.100s: the importer crashed (signal %d)", model.name.c_str(), signal);
 }
 
+Status too_large(const ModelFile& model, std::uint64_t bytes, const LoadOptions& options) {
+  const std::uint64_t most = maximum_reply(bytes, options);
+  return Status::failure(StatusCode::limit_exceeded, kNone,
+                         "%.100s: more than %llu bytes after import (LoadOptions::%s)",
+                         model.name.c_str(), static_cast<unsigned long long>(most),
+                         most == options.maximum_bytes ? "maximum_bytes" : "import_memory");
+}
+
+Status unfiltered(const ModelFile& model, const Conversation& conversation,
+                  const LoadOptions& options) {
+  return Status::failure(StatusCode::unsupported_feature, kNone,
+                         "%.100s: not imported, because the helper process cannot filter its "
+                         "system calls: %s (LoadOptions::%s)",
+                         model.name.c_str(), conversation.ready.why_not.data(),
+                         options.requires_filter ? "requires_filter" : "strict");
+}
+
 /// @param status  from wait, or -1.
-Status failure_of(const Conversation& conversation, int status, std::uint64_t memory,
+/// @param bytes   of all files that the helper could read.
+Status failure_of(const Conversation& conversation, int status, std::uint64_t bytes,
                   const ModelFile& model, const LoadOptions& options) {
   switch (conversation.outcome) {
     case Outcome::timed_out: return timed_out(model, options);
-    case Outcome::too_large:
-      return Status::failure(StatusCode::limit_exceeded, kNone,
-                             "%.100s: more than %llu bytes after import "
-                             "(LoadOptions::maximum_bytes)",
-                             model.name.c_str(),
-                             static_cast<unsigned long long>(options.maximum_bytes));
+    case Outcome::too_large: return too_large(model, bytes, options);
+    case Outcome::unfiltered: return unfiltered(model, conversation, options);
     case Outcome::insatiable:
       return Status::failure(StatusCode::limit_exceeded, kNone,
                              "%.100s: the importer asked for other files more than %llu times",
                              model.name.c_str(), static_cast<unsigned long long>(kMostRequests));
     case Outcome::failed:
-      if (conversation.cause == kOutOfMemory) return out_of_memory(model, memory);
+      if (conversation.cause == kOutOfMemory)
+        return out_of_memory(model, import_memory_of(bytes, options));
       if (conversation.cause < kOutOfMemory)
         return stopped_by(static_cast<int>(conversation.cause), model, options);
       break;
@@ -112,16 +139,17 @@ Status wrong_helper(const std::filesystem::path& helper, int status) {
 
 /// The helper's report is trusted as little as its GLB, but that it runs without a filter is known
 /// from before it read the model.
-Result<ImportedGlb> imported_from(Conversation& conversation, const ModelFile& model) {
+Result<ImportedGlb> imported_from(Conversation& conversation, std::uint64_t memory,
+                                  const ModelFile& model) {
   Result<LoadReport> report = decode_head(conversation.head, model.name);
   if (!report) return report.error();
   if (conversation.ready.has_filter == 0)
     report->notes.push_back(
-        {LoadNote::Kind::information, "import",
+        {LoadNote::Kind::warning, "import",
          std::string("the helper process ran without a filter of system calls: ") +
              conversation.ready.why_not.data(),
          1});
-  return ImportedGlb{std::move(conversation.body), std::move(*report)};
+  return ImportedGlb{std::move(conversation.body), std::move(*report), memory};
 }
 
 }  // namespace
@@ -148,16 +176,19 @@ Result<ImportedGlb> run_helper(const ModelFile& model, files::AllowedFiles& allo
   // of the job, so what it sent is read in any case.
   if (socket.send_value(job, model.file.descriptor.value()) == Transfer::complete)
     (void)socket.send(std::as_bytes(std::span(model.name)));
-  Conversation conversation = serve(socket, allowed, options.maximum_bytes, file_opened);
-  const bool must_stop = conversation.outcome == Outcome::timed_out ||
-                         conversation.outcome == Outcome::too_large ||
-                         conversation.outcome == Outcome::insatiable;
+  Conversation conversation =
+      serve(socket, allowed,
+            {requires_filter(options), [&] { return maximum_reply(bytes, options); }, file_opened});
+  const bool must_stop =
+      conversation.outcome == Outcome::timed_out || conversation.outcome == Outcome::too_large ||
+      conversation.outcome == Outcome::insatiable || conversation.outcome == Outcome::unfiltered;
   // A process that closed the socket in order to run on is killed soon.
   const auto patience = std::chrono::milliseconds(must_stop ? 0 : 500);
   const int status = process->finish(Clock::now() + patience);
-  if (conversation.outcome == Outcome::replied) return imported_from(conversation, model);
+  if (conversation.outcome == Outcome::replied)
+    return imported_from(conversation, import_memory_of(bytes, options), model);
   if (conversation.outcome == Outcome::wrong_helper) return wrong_helper(helper->path, status);
-  return failure_of(conversation, status, import_memory_of(bytes, options), model, options);
+  return failure_of(conversation, status, bytes, model, options);
 }
 
 }  // namespace sunder::contained_import

@@ -69,6 +69,10 @@ Result<OpenFile> open_regular_file(const fs::path& file) {
   return checked(Descriptor(::open(file.c_str(), kForReading)), file);
 }
 
+Result<OpenFile> open_checked_file(const fs::path& canonical) {
+  return checked(open_canonical(canonical), canonical);
+}
+
 AllowedFiles::AllowedFiles(const fs::path& folder, const std::vector<fs::path>& roots,
                            std::uint64_t maximum_bytes)
     : budget_(maximum_bytes) {
@@ -108,7 +112,7 @@ Result<fs::path> AllowedFiles::resolve(std::string_view reference) const {
 Result<OpenFile> AllowedFiles::open(std::string_view reference) {
   const Result<fs::path> file = resolve(reference);
   if (!file) return file.error();
-  Result<OpenFile> opened = checked(open_canonical(*file), *file);
+  Result<OpenFile> opened = open_checked_file(*file);
   if (!opened) return opened;
   if (const Status fits = charge(*file, opened->bytes); !fits) return fits;
   return opened;

@@ -17,9 +17,12 @@ struct OpenFile {
   std::uint64_t bytes = 0;
 };
 
-/// Opens a regular file for reading. Symbolic links in `file` are followed, unless it is canonical.
+/// Opens a regular file for reading. Symbolic links in `file` are followed.
 /// @return file_not_found, file_unreadable (also if it is no regular file).
 [[nodiscard]] Result<OpenFile> open_regular_file(const std::filesystem::path& file);
+
+/// The same for a canonical path, which was checked: fails if a part of it has become a link since.
+[[nodiscard]] Result<OpenFile> open_checked_file(const std::filesystem::path& canonical);
 
 /// The only files that a model can read: regular files below the roots, within a limit of bytes.
 /// Links are resolved before the check, so none leads outside.

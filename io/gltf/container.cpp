@@ -147,6 +147,12 @@ void check_required_extensions(const Cursor& document) {
 }
 
 Json parse_json(std::string_view text, std::uint64_t maximum_memory) {
+  // simdjson keeps a copy of the text and up to eight bytes per character, before a value is read.
+  constexpr std::uint64_t kParserMemory = 10;
+  if (text.size() > maximum_memory / kParserMemory)
+    refuse(StatusCode::limit_exceeded, kNone,
+           "JSON: parsing its %zu bytes exceeds %llu bytes (LoadOptions::maximum_memory)",
+           text.size(), static_cast<unsigned long long>(maximum_memory));
   if (auto document = parse_json_fast(text, {kMaximumNesting, kMaximumMembers, maximum_memory}))
     return *std::move(document);
   check_nesting(text, maximum_memory);

@@ -101,8 +101,7 @@ void GlbDraft::embed_image(Json& image, std::uint64_t& bytes_left) {
   if (is_data_uri(uri)) return;
   std::vector<std::byte> bytes;
   try {
-    bytes =
-        read_file(resolve_uri(uri, source_.folder, "image", source_.roots), bytes_left, "image");
+    bytes = read_uri(uri, source_.folder, "image", source_.roots, bytes_left);
   } catch (const Refusal&) {
     return;  // The reference stays as in the source.
   }

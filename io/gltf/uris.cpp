@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cstring>
-#include <fstream>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
 #include <tiny_gltf.h>
 
+#include "io/files/allowed_files.h"
+#include "io/files/read_at.h"
 #include "io/gltf/refusal.h"
 
 namespace sunder::gltf {
@@ -43,6 +44,34 @@ bool has_scheme(const std::string& path) {
 bool is_inside(const std::filesystem::path& file, const std::filesystem::path& folder) {
   return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first ==
          folder.end();
+}
+
+/// The content of an opened file, whose type and size are those of the descriptor.
+std::vector<std::byte> content_of(const Result<files::OpenFile>& opened,
+                                  const std::filesystem::path& file, std::uint64_t maximum_bytes,
+                                  const std::string& place) {
+  const std::string name = file.filename().string();
+  if (!opened)
+    refuse(opened.error().code(), kNone, "%.120s: %.130s", place.c_str(),
+           std::string(opened.error().text()).c_str());
+  const std::uint64_t size = opened->bytes;
+  if (size > maximum_bytes)
+    refuse(StatusCode::limit_exceeded, kNone,
+           "%.80s: '%.80s' has %llu bytes; %llu are left of LoadOptions::maximum_bytes",
+           place.c_str(), name.c_str(), static_cast<unsigned long long>(size),
+           static_cast<unsigned long long>(maximum_bytes));
+  constexpr std::uint64_t kBlock = std::uint64_t{1} << 18;  // is in the cache when it is read to
+  std::vector<std::byte> bytes;
+  bytes.reserve(size);
+  while (bytes.size() < size) {
+    const std::size_t begin = bytes.size();
+    const auto block = static_cast<std::size_t>(std::min(kBlock, size - begin));
+    bytes.resize(begin + block);
+    if (files::read_at(opened->descriptor, bytes.data() + begin, block, begin) != block)
+      refuse(StatusCode::file_unreadable, kNone, "%.120s: '%.100s' ended early", place.c_str(),
+             name.c_str());
+  }
+  return bytes;
 }
 
 }  // namespace
@@ -117,39 +146,17 @@ std::filesystem::path resolve_uri(const std::string& uri, const std::filesystem:
   return first;
 }
 
+std::vector<std::byte> read_uri(const std::string& uri, const std::filesystem::path& folder,
+                                const std::string& place,
+                                const std::vector<std::filesystem::path>& roots,
+                                std::uint64_t maximum_bytes) {
+  const std::filesystem::path file = resolve_uri(uri, folder, place, roots);
+  return content_of(files::open_checked_file(file), file, maximum_bytes, place);
+}
+
 std::vector<std::byte> read_file(const std::filesystem::path& file, std::uint64_t maximum_bytes,
                                  const std::string& place) {
-  std::error_code error;
-  const auto status = std::filesystem::status(file, error);
-  if (!std::filesystem::exists(status))
-    refuse(StatusCode::file_not_found, kNone, "%.120s: '%.100s' does not exist", place.c_str(),
-           file.filename().c_str());
-  if (!std::filesystem::is_regular_file(status))
-    refuse(StatusCode::file_unreadable, kNone, "%.120s: '%.100s' is not a file", place.c_str(),
-           file.filename().c_str());
-  const std::uintmax_t size = std::filesystem::file_size(file, error);
-  std::ifstream stream(file, std::ios::binary);
-  if (error || !stream)
-    refuse(StatusCode::file_unreadable, kNone, "%.120s: '%.100s' cannot be read", place.c_str(),
-           file.filename().c_str());
-  if (size > maximum_bytes)
-    refuse(StatusCode::limit_exceeded, kNone,
-           "%.80s: '%.80s' has %llu bytes; %llu are left of LoadOptions::maximum_bytes",
-           place.c_str(), file.filename().c_str(), static_cast<unsigned long long>(size),
-           static_cast<unsigned long long>(maximum_bytes));
-  constexpr std::uintmax_t kBlock = std::uintmax_t{1} << 18;  // is in the cache when it is read to
-  std::vector<std::byte> bytes;
-  bytes.reserve(size);
-  while (bytes.size() < size) {
-    const std::size_t begin = bytes.size();
-    const auto block = static_cast<std::size_t>(std::min(kBlock, size - begin));
-    bytes.resize(begin + block);
-    stream.read(reinterpret_cast<char*>(bytes.data() + begin), static_cast<std::streamsize>(block));
-    if (static_cast<std::size_t>(stream.gcount()) != block)
-      refuse(StatusCode::file_unreadable, kNone, "%.120s: '%.100s' ended early", place.c_str(),
-             file.filename().c_str());
-  }
-  return bytes;
+  return content_of(files::open_regular_file(file), file, maximum_bytes, place);
 }
 
 }  // namespace sunder::gltf

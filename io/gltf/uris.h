@@ -21,8 +21,17 @@ namespace sunder::gltf {
     const std::string& uri, const std::filesystem::path& folder, const std::string& place,
     const std::vector<std::filesystem::path>& roots = {});
 
-/// The bytes of a regular file. Refuses a file that is missing, unreadable or larger than
-/// `maximum_bytes`.
+/// The bytes of the regular file that resolve_uri() finds. The file that was checked is the one
+/// that is read: a part of its path that has become a link since is refused. Refuses a file larger
+/// than `maximum_bytes`.
+[[nodiscard]] std::vector<std::byte> read_uri(const std::string& uri,
+                                              const std::filesystem::path& folder,
+                                              const std::string& place,
+                                              const std::vector<std::filesystem::path>& roots,
+                                              std::uint64_t maximum_bytes);
+
+/// The bytes of a regular file that the caller names. Refuses a file that is missing, unreadable or
+/// larger than `maximum_bytes`.
 [[nodiscard]] std::vector<std::byte> read_file(const std::filesystem::path& file,
                                                std::uint64_t maximum_bytes,
                                                const std::string& place);

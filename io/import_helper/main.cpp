@@ -42,7 +42,8 @@ void close_inherited() {
     close(static_cast<int>(descriptor));
 }
 
-/// Ends with the caller. A caller that ended before this call is noticed by its number.
+/// Ends with the caller. A caller that ended before this call is noticed by its number. After a
+/// change of the user, because that takes the wish back.
 void end_with_caller(const Job& job) {
 #if defined(__linux__)
   prctl(PR_SET_PDEATHSIG, SIGKILL, 0, 0, 0);
@@ -65,10 +66,14 @@ bool receive_job(Socket& socket, Job& job, Work& work) {
 bool contain(Socket& socket, const Job& job) {
   set_limits(
       {.memory = job.memory, .largest_memory = job.largest_memory, .cpu_seconds = job.cpu_seconds});
+  drop_privileges();
+  end_with_caller(job);
+  hide_files();
   import_messages::Ready ready;
   ready.why_not = filter_system_calls();
   ready.has_filter = ready.why_not[0] == '\0' ? 1 : 0;
-  return socket.send_value(ready) == Transfer::complete;
+  return socket.send_value(ready) == Transfer::complete &&
+         (ready.has_filter != 0 || job.requires_filter == 0);
 }
 
 void reply(Socket& socket, const Result<assimp_import::ImportedGlb>& imported) {
@@ -91,7 +96,6 @@ void reply(Socket& socket, const Result<assimp_import::ImportedGlb>& imported) {
   Job job;
   Work work;
   if (!receive_job(socket, job, work)) _exit(1);
-  end_with_caller(job);
   report_crashes();
   std::set_terminate(std::abort);
   // An exception would end in abort() where a destructor allocates.

@@ -16,6 +16,17 @@ struct SandboxLimits {
 /// processes of the user.
 void set_limits(const SandboxLimits& limits);
 
+/// Gives up what the caller's user may do: all capabilities and, for root, the user and its groups,
+/// for those of `nobody`; then no process or thread can be started. Root stays, without
+/// capabilities, where the system refuses the other user, or would not let the caller end its
+/// processes (no CAP_KILL).
+void drop_privileges();
+
+/// Denies every access to files by path, and to TCP ports (Landlock), also where there is no filter
+/// of system calls. Descriptors stay usable. Call it after set_limits().
+/// @return whether the system has Landlock; false under sanitizers.
+bool hide_files();
+
 /// Text that says why there is no filter; empty: system calls are filtered.
 using NoFilterReason = std::array<char, 120>;
 

@@ -13,7 +13,7 @@ namespace sunder::import_messages {
 //   helper: Request, reference     caller: Answer, text; with a descriptor if it opened a file
 //   helper: Request `reply` and the reply, or `failed`
 
-inline constexpr std::uint32_t kProtocol = 0x534E4401;
+inline constexpr std::uint32_t kProtocol = 0x534E4402;
 
 /// The descriptor of the socket in the helper process.
 inline constexpr int kSocket = 3;
@@ -31,7 +31,7 @@ struct Job {
   std::uint32_t cpu_seconds = 0;
   std::int32_t caller = 0;  ///< Process id.
   std::uint32_t strict = 0;
-  std::uint32_t reserved = 0;
+  std::uint32_t requires_filter = 0;  ///< The helper ends before it reads the model if it has none.
 };
 
 struct Ready {

@@ -9,7 +9,7 @@
 namespace sunder::import_messages {
 
 /// More bytes of a head than any import's report has.
-inline constexpr std::uint64_t kMostHeadBytes = std::uint64_t{16} << 20;
+inline constexpr std::uint64_t kMostHeadBytes = std::uint64_t{4} << 20;
 
 /// The reply's head as text: the outcome of an import and its report. The GLB follows it.
 [[nodiscard]] std::string encode_head(const Status& status, const LoadReport& report);

@@ -60,6 +60,7 @@ constexpr auto kKinds = std::to_array<FindingKind>({
     {"mesh_scale_zero", kWarning, StatusCode::invalid_argument},
     {"mesh_huge", kWarning, StatusCode::invalid_argument},
     {"mesh_repaired", kInformation, StatusCode::malformed_file},
+    {"import_unfiltered", kInformation, StatusCode::unsupported_feature},
     {"collada_up_axis", kInformation, StatusCode::unsupported_feature},
     {"material_unknown", kInformation, StatusCode::not_found},
     {"shapes_too_large", kError, StatusCode::limit_exceeded},

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include "io/urdf/materials.h"
@@ -62,27 +63,29 @@ class ShapeReader {
         paths_(file, all_roots(options)),
         materials_(tags),
         files_(paths_, options, materials_),
-        bytes_left_(options.meshes.maximum_bytes) {}
+        options_(options.meshes) {
+    std::error_code error;
+    const auto size = std::filesystem::file_size(file, error);
+    bytes_of_text_ = error ? 0 : size;
+  }
 
   /// Appends a shape to the mesh of its link.
   void add(const ShapeTag& shape, const Affine3d& link_from_shape, const LinkTag& link,
            Mesh& into) {
     const Place place = {place_of(link).name, shape.line};
     Affine3d link_from_mesh = link_from_shape;
-    std::optional<Mesh> mesh =
-        shape.mesh ? mesh_of_file(shape, place, link_from_mesh) : solid(shape, place);
-    if (!mesh || mesh->triangles.empty()) return;
-    for (Submesh& submesh : mesh->submeshes)
-      if (submesh.material == kNone)
-        submesh.material = materials_.of_shape(shape, place, findings_);
-    const std::uint64_t bytes = bytes_of(*mesh);
-    if (bytes > bytes_left_) {
-      findings_.add("shapes_too_large", place, "the shapes of all links exceed the size limit");
-      return;
-    }
-    bytes_left_ -= bytes;
+    std::optional<Mesh> made;
+    const Mesh* mesh = nullptr;
+    if (shape.mesh)
+      mesh = mesh_of_file(shape, place, link_from_mesh);
+    else if ((made = solid(shape, place)))
+      mesh = &*made;
+    if (mesh == nullptr || mesh->triangles.empty() || !has_room(bytes_of(*mesh), place)) return;
     Mesh moved;
     append_mesh(moved, *mesh, link_from_mesh);
+    for (Submesh& submesh : moved.submeshes)
+      if (submesh.material == kNone)
+        submesh.material = materials_.of_shape(shape, place, findings_);
     if (!check(moved, shape, place)) return;
     append_mesh(into, moved, Affine3d::Identity());
   }
@@ -90,17 +93,32 @@ class ShapeReader {
   [[nodiscard]] const gltf::NewMaterials& materials() const { return materials_.all(); }
 
  private:
-  std::optional<Mesh> mesh_of_file(const ShapeTag& shape, const Place& place,
-                                   Affine3d& link_from_mesh) {
+  /// A small text can show one mesh very often, so what all shapes take is limited by the files.
+  bool has_room(std::uint64_t bytes, const Place& place) {
+    constexpr std::uint64_t kLeast = std::uint64_t{64} << 20, kTimes = 20;
+    const std::uint64_t most = options_.maximum_memory != 0
+                                   ? options_.maximum_memory
+                                   : std::max(kLeast, kTimes * (bytes_of_text_ + files_.bytes()));
+    if (bytes <= most - std::min(most, bytes_used_)) {
+      bytes_used_ += bytes;
+      return true;
+    }
+    findings_.add("shapes_too_large", place,
+                  "the shapes of all links exceed " + std::to_string(most >> 20) +
+                      " MiB (LoadOptions::maximum_memory)");
+    return false;
+  }
+
+  const Mesh* mesh_of_file(const ShapeTag& shape, const Place& place, Affine3d& link_from_mesh) {
     const Numbers3& scale = shape.mesh->scale;
     if (scale[0] == 0 || scale[1] == 0 || scale[2] == 0) {
       findings_.add("mesh_scale_zero", place, "the scale of its mesh is zero; it is left out");
-      return std::nullopt;
+      return nullptr;
     }
     const auto file = paths_.find(shape.mesh->filename, place, findings_);
-    if (!file) return std::nullopt;
+    if (!file) return nullptr;
     link_from_mesh.linear() *= Vec3d(scale[0], scale[1], scale[2]).asDiagonal();
-    return files_.read(*file, place, findings_).mesh;
+    return &files_.read(*file, place, findings_).mesh;
   }
 
   std::optional<Mesh> solid(const ShapeTag& shape, const Place& place) {
@@ -144,7 +162,8 @@ class ShapeReader {
   MeshPaths paths_;
   Materials materials_;
   MeshFiles files_;
-  std::uint64_t bytes_left_;
+  const LoadOptions& options_;
+  std::uint64_t bytes_of_text_ = 0, bytes_used_ = 0;
 };
 
 }  // namespace

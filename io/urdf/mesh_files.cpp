@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fstream>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include "io/internal/base_colours.h"
@@ -99,12 +100,16 @@ Mesh joined(const Character& character, const Affine3d& file_from_model) {
   return all;
 }
 
+bool is_change(const LoadNote& note) {
+  return note.kind == LoadNote::Kind::repaired || note.kind == LoadNote::Kind::dropped;
+}
+
 /// The first repair or loss that the importer reports, and the number of the others.
 std::string repairs(const LoadReport& report) {
   std::string first;
   std::size_t count = 0;
   for (const LoadNote& note : report.notes)
-    if (note.kind != LoadNote::Kind::information && count++ == 0) first = note.text;
+    if (is_change(note) && count++ == 0) first = note.text;
   if (count > 1) first += ", and " + std::to_string(count - 1) + " more";
   return first;
 }
@@ -133,6 +138,14 @@ const MeshFile& MeshFiles::read(const fs::path& file, const Place& place, Findin
   return files_.emplace(file, load(file, place, findings)).first->second;
 }
 
+void MeshFiles::warn_of_filter(const LoadReport& report, const Place& place, Findings& findings) {
+  for (const LoadNote& note : report.notes) {
+    if (note.kind != LoadNote::Kind::warning || has_told_filter_) continue;
+    findings.add("import_unfiltered", place, note.text);
+    has_told_filter_ = true;
+  }
+}
+
 MeshFile MeshFiles::load(const fs::path& file, const Place& place, Findings& findings) {
   const std::string name = "'" + file.filename().string() + "'";
   const std::string extension = lower_extension(file);
@@ -148,6 +161,9 @@ MeshFile MeshFiles::load(const fs::path& file, const Place& place, Findings& fin
   options.roots = paths_.folders();
   const Result<LoadedCharacter> loaded = load_character(file, options);
   if (!loaded) return unreadable(std::string(loaded.error().text()));
+  std::error_code error;
+  if (const auto size = fs::file_size(file, error); !error) bytes_ += size;
+  warn_of_filter(loaded->report, place, findings);
   if (const std::string text = repairs(loaded->report); !text.empty())
     findings.add("mesh_repaired", place, "mesh " + name + ": " + text);
 

@@ -28,16 +28,21 @@ class MeshFiles {
   /// The content of a file. What is wrong with it is found when it is first read.
   [[nodiscard]] const MeshFile& read(const std::filesystem::path& file, const Place& place,
                                      Findings& findings);
+  /// The sizes of the files that were read.
+  [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
 
  private:
   [[nodiscard]] MeshFile load(const std::filesystem::path& file, const Place& place,
                               Findings& findings);
 
+  void warn_of_filter(const LoadReport& report, const Place& place, Findings& findings);
+
   const MeshPaths& paths_;
   const RobotLoadOptions& options_;
   Materials& materials_;
   std::map<std::filesystem::path, MeshFile> files_;
-  bool has_told_up_axis_ = false;
+  std::uint64_t bytes_ = 0;
+  bool has_told_up_axis_ = false, has_told_filter_ = false;
 };
 
 }  // namespace sunder::urdf

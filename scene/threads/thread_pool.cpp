@@ -1,5 +1,7 @@
 #include "scene/threads/thread_pool.h"
 
+#include <utility>
+
 namespace sunder::scene {
 
 ThreadPool::ThreadPool(std::uint32_t threads) {
@@ -33,9 +35,15 @@ ParallelFor ThreadPool::parallel_for() {
   return hook;
 }
 
-void ThreadPool::work_on(const Job& job) {
-  for (std::uint32_t i = next_.fetch_add(1); i < job.count; i = next_.fetch_add(1))
-    job.task(job.work, i);
+void ThreadPool::work_on(const Job& job) noexcept {
+  try {
+    for (std::uint32_t i = next_.fetch_add(1); i < job.count; i = next_.fetch_add(1))
+      job.task(job.work, i);
+  } catch (...) {
+    const std::lock_guard lock(mutex_);
+    if (thrown_ == nullptr) thrown_ = std::current_exception();
+    next_ = job.count;
+  }
 }
 
 void ThreadPool::run(const Job& job) {
@@ -54,6 +62,7 @@ void ThreadPool::run(const Job& job) {
   std::unique_lock lock(mutex_);
   job_.count = 0;  // a thread that wakes up late finds nothing to do
   is_done_.wait(lock, [this] { return busy_ == 0; });
+  if (std::exception_ptr thrown = std::exchange(thrown_, nullptr)) std::rethrow_exception(thrown);
 }
 
 void ThreadPool::serve() {

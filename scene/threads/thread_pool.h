@@ -5,13 +5,16 @@
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
+#include <exception>
 #include <mutex>
 #include <thread>
 #include <vector>
 
 namespace sunder::scene {
 
-/// Threads that share the tasks of one call at a time with the thread that makes it.
+/// Threads that share the tasks of one call at a time with the thread that makes it. If a task
+/// throws, no further one begins, all threads leave the job, and then the call throws the first
+/// exception.
 class ThreadPool {
  public:
   /// @param threads  number of threads that work, with the calling one. @throws std::system_error,
@@ -30,7 +33,7 @@ class ThreadPool {
     std::uint32_t count = 0;
   };
   void run(const Job& job);
-  void work_on(const Job& job);
+  void work_on(const Job& job) noexcept;
   void serve();
   void stop() noexcept;
 
@@ -40,6 +43,7 @@ class ThreadPool {
   std::uint64_t call_ = 0;  ///< Number of the job.
   std::uint32_t busy_ = 0;  ///< Threads of the pool that work on it.
   bool is_stopping_ = false;
+  std::exception_ptr thrown_;           ///< By a task of the job.
   std::atomic<std::uint32_t> next_{0};  ///< The next task of the job.
   std::vector<std::thread> threads_;
 };

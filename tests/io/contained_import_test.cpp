@@ -140,8 +140,8 @@ TEST_F(ContainedImport, MisbehaviourIsAnErrorWithACause) {
         Case{"tell_nonsense", StatusCode::malformed_file, "ended without a result"},
         Case{"garbage", StatusCode::malformed_file, "ended without a result"},
         Case{"short", StatusCode::malformed_file, "ended without a result"},
-        Case{"oversized", StatusCode::limit_exceeded, "LoadOptions::maximum_bytes"},
-        Case{"oversized_head", StatusCode::limit_exceeded, "LoadOptions::maximum_bytes"},
+        Case{"oversized", StatusCode::limit_exceeded, "LoadOptions::import_memory"},
+        Case{"oversized_head", StatusCode::limit_exceeded, "LoadOptions::import_memory"},
         Case{"no_json", StatusCode::malformed_file, "reply is not valid"},
         Case{"no_glb", StatusCode::malformed_file, ""},
         Case{"empty_glb", StatusCode::malformed_file, ""},
@@ -186,28 +186,83 @@ TEST_F(ContainedImport, TheHelperMustBeThere) {
 
 TEST_F(ContainedImport, TheHelperIsFoundInTheBuildTree) { EXPECT_TRUE(load_character(model())); }
 
-/// The note about a helper that runs without a filter of system calls.
-bool says_without_filter(const LoadReport& report) {
+/// The warning of a helper that runs without a filter of system calls.
+bool warns_of_filter(const LoadReport& report) {
   for (const LoadNote& note : report.notes)
-    if (note.place == "import" && contains(note.text, "without a filter")) return true;
+    if (note.kind == LoadNote::Kind::warning && contains(note.text, "without a filter"))
+      return true;
   return false;
 }
 
-TEST_F(ContainedImport, AMissingFilterIsReported) {
+bool can_filter() {
+  return exit_code_in_fork(
+             [] { return import_helper::filter_system_calls()[0] == '\0' ? 0 : 1; }) == 0;
+}
+
+TEST_F(ContainedImport, AMissingFilterIsAWarning) {
   const fs::path helper = folder_.path() / "good_without_filter";
   fs::create_symlink(SUNDER_ODD_IMPORT_HELPER, helper);
   LoadOptions options;
   options.import_helper = helper;
   const auto odd = import_as_glb(model(), options);
   ASSERT_TRUE(odd) << odd.error().text();
-  EXPECT_TRUE(says_without_filter(odd->report));
+  EXPECT_TRUE(warns_of_filter(odd->report));
   const auto own = import_as_glb(model(), {});
   ASSERT_TRUE(own) << own.error().text();
-  const bool has_filter = exit_code_in_fork([] {
-                            return import_helper::filter_system_calls()[0] == '\0' ? 0 : 1;
-                          }) == 0;
-  EXPECT_EQ(says_without_filter(own->report), !has_filter);
+  EXPECT_EQ(warns_of_filter(own->report), !can_filter());
 }
+
+TEST_F(ContainedImport, AMissingFilterIsRefusedOnRequest) {
+  const LeavesNothingBehind check;
+  const fs::path helper = folder_.path() / "good_without_filter";
+  fs::create_symlink(SUNDER_ODD_IMPORT_HELPER, helper);
+  for (const bool is_strict : {false, true}) {
+    LoadOptions options;
+    (is_strict ? options.strict : options.requires_filter) = true;
+    const auto own = import_as_glb(model(), options);
+    EXPECT_EQ(own.has_value(), can_filter()) << own.error().text();
+    options.import_helper = helper;
+    const auto odd = import_as_glb(model(), options);
+    EXPECT_EQ(odd.error().code(), StatusCode::unsupported_feature) << odd.error().text();
+    EXPECT_TRUE(contains(odd.error().text(), "filter")) << odd.error().text();
+    EXPECT_TRUE(contains(odd.error().text(), is_strict ? "strict" : "requires_filter"));
+  }
+}
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+/// The most memory, in MiB, that a program had which imports by this helper.
+long peak_mebibytes(const std::function<void()>& import) {
+  int results[2];
+  if (pipe(results) != 0) return -1;
+  const pid_t child = fork();
+  if (child == 0) {
+    import();
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    const long mebibytes = usage.ru_maxrss >> 10;
+    _exit(write(results[1], &mebibytes, sizeof mebibytes) == sizeof mebibytes ? 0 : 1);
+  }
+  close(results[1]);
+  long mebibytes = -1;
+  if (read(results[0], &mebibytes, sizeof mebibytes) != sizeof mebibytes) mebibytes = -1;
+  close(results[0]);
+  waitpid(child, nullptr, 0);
+  return mebibytes;
+}
+
+TEST_F(ContainedImport, AReplyTakesNoMoreMemoryThanTheImportMay) {
+  const long before = peak_mebibytes([] {});
+  ASSERT_GT(before, 0);
+  // For a small model the limit is 256 MiB, and half of it for the reply.
+  EXPECT_LT(peak_mebibytes([&] { (void)import_by("declared_1_gib"); }), before + 20);
+  const long of_large = peak_mebibytes([&] { (void)import_by("large"); });
+  EXPECT_LT(of_large, before + 130);
+  EXPECT_GT(of_large, before + 90) << "the reply was not read";
+  EXPECT_LT(peak_mebibytes([&] { (void)import_by("bomb"); }), before + 400);
+  EXPECT_EQ(import_by("declared_1_gib").code(), StatusCode::limit_exceeded);
+  EXPECT_EQ(import_by("bomb").code(), StatusCode::limit_exceeded);
+}
+#endif
 
 TEST_F(ContainedImport, WorksWhenChildrenAreIgnored) {
   const fs::path file = model();

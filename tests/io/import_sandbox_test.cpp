@@ -4,10 +4,13 @@
 #include <cerrno>
 #include <csignal>
 #include <fcntl.h>
+#include <fstream>
 #include <functional>
 #include <new>
 #include <spawn.h>
+#include <string>
 #include <sys/mman.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/syscall.h>
@@ -22,7 +25,9 @@
 namespace sunder {
 namespace {
 
+using import_helper::drop_privileges;
 using import_helper::filter_system_calls;
+using import_helper::hide_files;
 using import_helper::set_limits;
 
 constexpr int kAllowed = 10, kRefused = 11, kNoFilter = 12;
@@ -114,6 +119,75 @@ TEST(ImportSandbox, HasLimitsWithoutAFilterToo) {
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
   EXPECT_EQ(outcome([] { return std::malloc(512u << 20) != nullptr; }, false), kRefused);
 #endif
+}
+
+/// A capability in one of the lines of /proc/self/status: "CapEff", "CapPrm", "CapAmb".
+bool has_capabilities() {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+    for (const char* const set : {"CapInh:", "CapPrm:", "CapEff:", "CapAmb:"})
+      if (line.starts_with(set) && line.find_first_of("123456789abcdef", 7) != std::string::npos)
+        return true;
+  return false;
+}
+
+TEST(ImportSandbox, HasNoPrivileges) {
+  EXPECT_EQ(outcome(
+                [] {
+                  drop_privileges();
+                  return !has_capabilities() && setresuid(0, 0, 0) != 0 && geteuid() != 0;
+                },
+                false),
+            kAllowed);
+  EXPECT_EQ(outcome(
+                [] {
+                  drop_privileges();
+                  return prctl(PR_GET_NO_NEW_PRIVS, 0, 0, 0, 0) == 1 &&
+                         prctl(PR_GET_DUMPABLE, 0, 0, 0, 0) == 0;
+                },
+                false),
+            kAllowed);
+  if (geteuid() != 0) return;
+  EXPECT_EQ(outcome(
+                [] {
+                  drop_privileges();
+                  return getgroups(0, nullptr) == 0;
+                },
+                false),
+            kAllowed);
+}
+
+TEST(ImportSandbox, StartsNoProcessWithoutAFilter) {
+  EXPECT_EQ(outcome(
+                [] {
+                  drop_privileges();
+                  const pid_t child = fork();
+                  if (child == 0) _exit(0);
+                  return child >= 0;
+                },
+                false),
+            kRefused);
+}
+
+TEST(ImportSandbox, LandlockHidesFilesWithoutAFilter) {
+  const auto has_landlock = [] { return hide_files(); };
+  if (outcome(has_landlock, false) != kAllowed) GTEST_SKIP() << "there is no Landlock here";
+  EXPECT_EQ(outcome([] { return hide_files() && open("/etc/passwd", O_RDONLY) >= 0; }, false),
+            kRefused);
+  EXPECT_EQ(
+      outcome([] { return hide_files() && open("/tmp", O_RDONLY | O_DIRECTORY) >= 0; }, false),
+      kRefused);
+  EXPECT_EQ(outcome([] { return hide_files() && unlink("/tmp/sunder_sandbox") == 0; }, false),
+            kRefused);
+  // What is open stays readable.
+  EXPECT_EQ(outcome(
+                [] {
+                  const int file = open("/etc/passwd", O_RDONLY);
+                  char one = 0;
+                  return hide_files() && read(file, &one, 1) == 1;
+                },
+                false),
+            kAllowed);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // A model that has taken over the real helper could do the same.
 
 #include <csignal>
+#include <cstdint>
 #include <cstring>
 #include <string>
 #include <sys/socket.h>
@@ -41,6 +42,20 @@ void ask(const std::string& reference) {
 const std::string kGoodHead =
     R"({"code":0,"index":0,"text":"","format":"F","space":"S","notes":[]})";
 
+/// A GLB whose JSON needs much more memory.
+std::string bomb() {
+  const auto chunk = [](const std::string& type, std::string data) {
+    data.resize((data.size() + 3) / 4 * 4, ' ');
+    const auto bytes = static_cast<std::uint32_t>(data.size());
+    return std::string(reinterpret_cast<const char*>(&bytes), 4) + type + data;
+  };
+  std::string json = R"({"asset":{"version":"2.0"},"extras":[0)";
+  while (json.size() < (60u << 20)) json += ",{}";
+  const std::string content = chunk("JSON", json + "]}");
+  const std::uint32_t head[] = {2, static_cast<std::uint32_t>(content.size()) + 12};
+  return "glTF" + std::string(reinterpret_cast<const char*>(head), 8) + content;
+}
+
 void misbehave(const std::string& how) {
   if (how == "exit") return;
   if (how == "segv") std::raise(SIGSEGV);
@@ -60,6 +75,13 @@ void misbehave(const std::string& how) {
     put(kGoodHead + "glTF");
   }
   if (how == "oversized") put(Request{.kind = RequestKind::reply, .first = 2, .second = ~0ull / 2});
+  if (how == "declared_1_gib") {
+    put(Request{.kind = RequestKind::reply, .first = kGoodHead.size(), .second = 1u << 30});
+    put(kGoodHead);
+    for (int i = 0; i < 1024; ++i) put(std::string(1u << 20, 'x'));
+  }
+  if (how == "large") reply(kGoodHead, std::string(100u << 20, 'x'));
+  if (how == "bomb") reply(kGoodHead, bomb());
   if (how == "oversized_head")
     put(Request{.kind = RequestKind::reply, .first = ~0ull, .second = 1});
   if (how == "no_json") reply("not JSON", "");

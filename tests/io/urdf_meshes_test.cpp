@@ -212,12 +212,44 @@ TEST_F(UrdfMeshes, broken_mesh_files_leave_the_link) {
 
 TEST_F(UrdfMeshes, shapes_above_the_limit_are_refused) {
   RobotLoadOptions options;
-  options.meshes.maximum_bytes = 1000;
+  options.meshes.maximum_memory = 1000;
   const auto loaded =
       load_robot(folder_.write("robot.urdf", link_with(visual("<sphere radius=\"1\"/>"))), options,
                  &findings_);
   EXPECT_EQ(loaded.error().code(), StatusCode::limit_exceeded);
   EXPECT_THAT(findings_, Contains(Field(&RobotFinding::code, "shapes_too_large")));
+}
+
+/// A grid of that many squares a side, as OBJ.
+std::string grid(int side) {
+  std::string text;
+  for (int y = 0; y <= side; ++y)
+    for (int x = 0; x <= side; ++x)
+      text += "v " + std::to_string(x) + " " + std::to_string(y) + " 0\n";
+  for (int y = 0; y < side; ++y)
+    for (int x = 0; x < side; ++x) {
+      const int corner = y * (side + 1) + x + 1;
+      text += "f " + std::to_string(corner) + " " + std::to_string(corner + 1) + " " +
+              std::to_string(corner + side + 2) + " " + std::to_string(corner + side + 1) + "\n";
+    }
+  return text;
+}
+
+TEST_F(UrdfMeshes, one_mesh_that_is_shown_very_often_is_refused) {
+  folder_.write("grid.obj", grid(60));
+  const auto robot_with = [](int visuals) {
+    std::string shapes;
+    for (int i = 0; i < visuals; ++i) shapes += visual("<mesh filename=\"grid.obj\"/>");
+    return link_with(shapes);
+  };
+  EXPECT_EQ(mesh_of(robot_with(20)).triangles.size(), 20u * 2 * 60 * 60);
+  const auto loaded =
+      load_robot(folder_.write("robot.urdf", robot_with(500)), RobotLoadOptions(), &findings_);
+  EXPECT_EQ(loaded.error().code(), StatusCode::limit_exceeded);
+  EXPECT_THAT(findings_, Contains(Field(&RobotFinding::code, "shapes_too_large")));
+  RobotLoadOptions options;  // on request there is more
+  options.meshes.maximum_memory = std::uint64_t{1} << 30;
+  EXPECT_TRUE(load_robot(folder_.path() / "robot.urdf", options));
 }
 
 TEST_F(UrdfMeshes, colours_come_from_the_urdf_unless_the_mesh_has_its_own) {

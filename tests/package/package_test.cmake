@@ -28,6 +28,9 @@ if(NOT written STREQUAL installed)
     "written:   ${written}\ninstalled: ${installed}")
 endif()
 
+include(${SUNDER_SOURCE}/tests/package/needed.cmake)
+check_needed(${prefix} ${SUNDER_SOURCE}/THIRD_PARTY.md)
+
 # The installed command finds the installed helper executable.
 find_program(command sunder PATHS ${prefix}/bin NO_DEFAULT_PATH)
 if(WITH_IO AND command)

@@ -17,6 +17,7 @@
 #include "tools/messages/printed.h"
 #include "tools/messages/text_file.h"
 #include "tools/model/bone_extents.h"
+#include "tools/model/load_notes.h"
 #include "tools/model/model_check.h"
 #include "tools/model/model_json.h"
 #include "tools/model/pose_argument.h"
@@ -240,6 +241,8 @@ ExitCode describe_robot(const InfoRequest& request) {
       return code;
     return complain(request.model.string(), loaded.error(), ExitCode::unreadable_input);
   }
+  const Messages messages(Verbosity::normal);
+  warn_of_protection(request.model.string(), loaded->model.report, messages);
   loaded->model.report.notes.clear();  // they repeat the findings
   if (!loaded->model.character->meshes.empty())
     if (const ExitCode code = describe(request, loaded->model, info); code != ExitCode::ok)
@@ -269,14 +272,13 @@ ExitCode run_info(const InfoRequest& request) {
   const Result<LoadedCharacter> loaded =
       load_character(request.model, load_options(request.reading));
   if (!loaded) return complain(request.model.string(), loaded.error(), ExitCode::unreadable_input);
+  warn_of_protection(request.model.string(), loaded->report, Messages(Verbosity::normal));
   Json info;
   if (const ExitCode code = describe(request, *loaded, info); code != ExitCode::ok) return code;
   if (const ExitCode code = put_out(request, info, {}); code != ExitCode::ok) return code;
 
   const auto& notes = loaded->report.notes;
-  const bool was_changed = std::any_of(notes.begin(), notes.end(), [](const LoadNote& note) {
-    return note.kind != LoadNote::Kind::information;
-  });
+  const bool was_changed = std::any_of(notes.begin(), notes.end(), is_change);
   return was_changed ? ExitCode::findings : ExitCode::ok;
 }
 

@@ -26,9 +26,10 @@ std::size_t length_of_name(std::string_view text, std::string_view place) {
 }  // namespace
 
 std::string with_option_names(std::string text) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 2> kOptions = {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kOptions = {
       {{"LoadOptions::import_seconds", "--import-seconds"},
-       {"LoadOptions::maximum_memory", "--memory"}}};
+       {"LoadOptions::maximum_memory", "--memory"},
+       {"LoadOptions::strict", "--strict"}}};
   for (const auto& [member, option] : kOptions)
     if (const std::size_t found = text.find(member); found != std::string::npos)
       text.replace(found, member.size(), option);

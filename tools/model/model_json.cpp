@@ -10,6 +10,7 @@ const char* kind_name(LoadNote::Kind kind) {
     case LoadNote::Kind::information: return "information";
     case LoadNote::Kind::repaired: return "repaired";
     case LoadNote::Kind::dropped: return "dropped";
+    case LoadNote::Kind::warning: return "warning";
   }
   return "information";
 }

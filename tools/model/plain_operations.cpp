@@ -8,6 +8,7 @@
 #include <utility>
 #include <variant>
 
+#include "tools/model/coupled_refits.h"
 #include "tools/model/named_poses.h"
 
 namespace sunder::tools {
@@ -33,6 +34,7 @@ Result<std::vector<Operation>> load_plain_operations(
     for (LoggedOperation& of : *logged) plain.push_back(std::move(std::get<Operation>(of)));
     return plain;
   }
+  if (const Status status = provide_coupled_refits(*logged); !status) return status;
   auto model = TornModel::create(character);
   if (!model) return model.error();
   for (std::size_t i = 0; i < logged->size(); ++i) {

@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "core/internal/nearest_names.h"
+#include "tools/messages/messages.h"
 #include "tools/messages/printed.h"
+#include "tools/model/load_notes.h"
 #include "tools/model/pose_argument.h"
 
 namespace sunder::tools {
@@ -51,6 +53,7 @@ std::optional<RobotMotion> read_motion(const RobotTearRequest& request, const Mo
     code = complain(request.robot.string(), robot.error(), ExitCode::unreadable_input);
     return {};
   }
+  warn_of_protection(request.robot.string(), robot->model.report, Messages(Verbosity::normal));
   made.robot = std::move(*robot);
   const Result<RobotTrajectory> trajectory = load_trajectory(request.trajectory);
   if (!trajectory) {

@@ -14,6 +14,7 @@
 #include "tools/messages/output_file.h"
 #include "tools/messages/printed.h"
 #include "tools/messages/progress_bar.h"
+#include "tools/model/coupled_refits.h"
 #include "tools/model/load_notes.h"
 #include "tools/model/model_check.h"
 #include "tools/model/named_poses.h"
@@ -169,6 +170,7 @@ Result<std::vector<WantedOperation>> wanted_operations(const TearRequest& reques
   if (!request.operations.empty()) {
     auto logged = load_aimed_operations(request.operations);
     if (!logged) return logged.error();
+    if (const Status status = provide_coupled_refits(*logged); !status) return status;
     for (LoggedOperation& operation : *logged)
       wanted.push_back({std::move(operation), "/operations/" + std::to_string(wanted.size()),
                         request.operations.string()});

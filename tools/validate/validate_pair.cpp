@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "tools/messages/messages.h"
 #include "tools/model/bone_names.h"
 #include "tools/model/load_notes.h"
 #include "tools/model/plain_operations.h"
@@ -30,7 +31,7 @@ const FindingKind& kind_named(std::string_view code) {
 void add_load_notes(ValidatedPair& pair) {
   const bool stored = !pair.target.stored.empty();
   for (const LoadNote& note : pair.target.report.notes) {
-    if (note.kind == LoadNote::Kind::information || (stored && is_about_weights(note))) continue;
+    if (!is_change(note) || (stored && is_about_weights(note))) continue;
     const bool repaired = note.kind == LoadNote::Kind::repaired;
     const FindingKind& kind = kind_named(repaired ? "SUNDER_W_REPAIRED" : "SUNDER_W_DROPPED");
     const bool inherited =
@@ -65,7 +66,10 @@ std::optional<LoadedCharacter> load(const std::filesystem::path& file, const Val
   LoadOptions options = load_options(pair.reading);
   options.keep_stored_influences = true;
   Result<LoadedCharacter> loaded = load_character(file, options);
-  if (loaded) return std::move(*loaded);
+  if (loaded) {
+    warn_of_protection(file.string(), loaded->report, Messages(Verbosity::normal));
+    return std::move(*loaded);
+  }
   failure = {file.string(), loaded.error(), ExitCode::unreadable_input};
   return {};
 }

@@ -15,7 +15,12 @@ class SourceDocument;
 
 /// One kind of thing that loading repaired, dropped or reports, counted over the file.
 struct LoadNote {
-  enum class Kind : std::uint8_t { information, repaired, dropped };
+  enum class Kind : std::uint8_t {
+    information,
+    repaired,
+    dropped,
+    warning,  ///< The model is as in the file, but it was read with less protection than usual.
+  };
   Kind kind = Kind::information;
   std::string place;        ///< "mesh 2 'Body'", "clip 'Walk'".
   std::string text;         ///< "weights did not sum to one and were normalised".
@@ -38,8 +43,11 @@ enum class ImportPlace : std::uint8_t {
 };
 
 struct LoadOptions {
-  /// Refuses what would otherwise be repaired or dropped.
+  /// Refuses what would otherwise be repaired or dropped; implies `requires_filter`.
   bool strict = false;
+  /// Refuses to import where the helper process cannot filter its system calls (built without
+  /// libseccomp, or a system without it). Otherwise the report warns of it.
+  bool requires_filter = false;
   /// Limit for the file together with all files that it refers to.
   std::uint64_t maximum_bytes = std::uint64_t{2} << 30;
   /// Limit for the memory that reading takes, because a small file can describe a large model. 0:
