@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cstring>
-#include <fstream>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
 #include <tiny_gltf.h>
 
+#include "io/files/read_file.h"
 #include "io/gltf/refusal.h"
 
 namespace sunder::gltf {
@@ -119,37 +119,19 @@ std::filesystem::path resolve_uri(const std::string& uri, const std::filesystem:
 
 std::vector<std::byte> read_file(const std::filesystem::path& file, std::uint64_t maximum_bytes,
                                  const std::string& place) {
-  std::error_code error;
-  const auto status = std::filesystem::status(file, error);
-  if (!std::filesystem::exists(status))
-    refuse(StatusCode::file_not_found, kNone, "%.120s: '%.100s' does not exist", place.c_str(),
-           file.filename().c_str());
-  if (!std::filesystem::is_regular_file(status))
-    refuse(StatusCode::file_unreadable, kNone, "%.120s: '%.100s' is not a file", place.c_str(),
-           file.filename().c_str());
-  const std::uintmax_t size = std::filesystem::file_size(file, error);
-  std::ifstream stream(file, std::ios::binary);
-  if (error || !stream)
-    refuse(StatusCode::file_unreadable, kNone, "%.120s: '%.100s' cannot be read", place.c_str(),
-           file.filename().c_str());
-  if (size > maximum_bytes)
+  const auto refuse_file = [&](const Status& fault) {
+    refuse(fault.code(), kNone, "%.120s: %.200s", place.c_str(), std::string(fault.text()).c_str());
+  };
+  const Result<files::OpenFile> opened = files::open_regular_file(file);
+  if (!opened) refuse_file(opened.error());
+  if (opened->bytes > maximum_bytes)
     refuse(StatusCode::limit_exceeded, kNone,
            "%.80s: '%.80s' has %llu bytes; %llu are left of LoadOptions::maximum_bytes",
-           place.c_str(), file.filename().c_str(), static_cast<unsigned long long>(size),
+           place.c_str(), file.filename().c_str(), static_cast<unsigned long long>(opened->bytes),
            static_cast<unsigned long long>(maximum_bytes));
-  constexpr std::uintmax_t kBlock = std::uintmax_t{1} << 18;  // is in the cache when it is read to
-  std::vector<std::byte> bytes;
-  bytes.reserve(size);
-  while (bytes.size() < size) {
-    const std::size_t begin = bytes.size();
-    const auto block = static_cast<std::size_t>(std::min(kBlock, size - begin));
-    bytes.resize(begin + block);
-    stream.read(reinterpret_cast<char*>(bytes.data() + begin), static_cast<std::streamsize>(block));
-    if (static_cast<std::size_t>(stream.gcount()) != block)
-      refuse(StatusCode::file_unreadable, kNone, "%.120s: '%.100s' ended early", place.c_str(),
-             file.filename().c_str());
-  }
-  return bytes;
+  Result<std::vector<std::byte>> bytes = files::read_all(*opened, maximum_bytes);
+  if (!bytes) refuse_file(bytes.error());
+  return std::move(*bytes);
 }
 
 }  // namespace sunder::gltf
