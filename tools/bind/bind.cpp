@@ -161,10 +161,12 @@ ExitCode run_bind(const BindRequest& request) {
     print_error("sunder: " + fault);
     return ExitCode::usage;
   }
+  Budget budget(request.budget, request.model.string());
   Inputs inputs;
   if (const ExitCode code = read_inputs(request, inputs); code != ExitCode::ok) return code;
   const Result<AnyBinding> binding = bind_models(request, inputs);
   if (!binding) return complain(blamed(request, binding.error()), binding.error(), ExitCode::usage);
+  budget.end();
   if (const ExitCode code = write_files(request, inputs, *binding); code != ExitCode::ok)
     return code;
   std::fputs(bind_table(*binding).c_str(), stdout);
