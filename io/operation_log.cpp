@@ -1,20 +1,19 @@
 #include <sunder/io/operation_log.h>
 
 #include <exception>
-#include <fstream>
 #include <new>
-#include <system_error>
+#include <utility>
 
+#include "io/internal/read_input.h"
 #include "io/internal/staged_file.h"
+#include "io/internal/strict_json.h"
 #include "io/operation_log/format.h"
-#include "io/operation_log/parse_json.h"
 #include "io/operation_log/read_operation.h"
 
 namespace sunder {
 namespace {
 
 using operation_log::Fault;
-using operation_log::kMaximumBytes;
 
 /// The Status of the exception that is being handled.
 Status status_of_current_exception() {
@@ -31,23 +30,9 @@ Status status_of_current_exception() {
 }
 
 std::string read_text(const std::filesystem::path& file) {
-  const std::string name = file.filename().string();
-  std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(file, error);
-  if (status.type() == std::filesystem::file_type::not_found)
-    throw Fault{Status::failure(StatusCode::file_not_found, kNone, "no file '%s'", name.c_str())};
-  const Fault unreadable{
-      Status::failure(StatusCode::file_unreadable, kNone, "cannot read '%s'", name.c_str())};
-  std::ifstream stream(file, std::ios::binary);
-  const std::uintmax_t size = std::filesystem::file_size(file, error);
-  if (status.type() != std::filesystem::file_type::regular || error || !stream) throw unreadable;
-  if (size > kMaximumBytes)
-    throw Fault{Status::failure(StatusCode::limit_exceeded, kNone,
-                                "%s: %ju bytes; the limit is %zu", name.c_str(), size,
-                                kMaximumBytes)};
-  std::string text(static_cast<std::size_t>(size), '\0');
-  if (!stream.read(text.data(), static_cast<std::streamsize>(size))) throw unreadable;
-  return text;
+  Result<std::string> text = read_input(file, kMaximumJsonBytes);
+  if (!text) throw Fault{text.error()};
+  return std::move(*text);
 }
 
 std::string write_text(std::span<const Operation> operations) {
@@ -64,7 +49,9 @@ std::string write_text(std::span<const Operation> operations) {
 
 Result<std::vector<Operation>> parse_operations(std::string_view json) {
   try {
-    return operation_log::read_log(operation_log::parse_json(json));
+    const Result<StrictJson> log = parse_strict_json(json);
+    if (!log) return log.error();
+    return operation_log::read_log(*log);
   } catch (...) {
     return status_of_current_exception();
   }
@@ -80,7 +67,9 @@ Result<std::vector<Operation>> load_operations(const std::filesystem::path& file
 
 Result<std::vector<LoggedOperation>> parse_aimed_operations(std::string_view json) {
   try {
-    return operation_log::read_aimed_log(operation_log::parse_json(json));
+    const Result<StrictJson> log = parse_strict_json(json);
+    if (!log) return log.error();
+    return operation_log::read_aimed_log(*log);
   } catch (...) {
     return status_of_current_exception();
   }

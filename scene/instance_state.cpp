@@ -69,9 +69,10 @@ Status CharacterInstance::State::require_drawn() {
     parts->palettes.push_back(std::move(*made));
   }
   parts->meshes.reserve(source.meshes.size());
+  const Index room = capacity.operations == kNone ? 0 : capacity.vertices;  // not of a mere limit
   for (Index m = 0; m < source.meshes.size(); ++m)
-    parts->meshes.emplace_back(shared().meshes[m], source.meshes[m].vertex_count(),
-                               capacity.vertices, shared().options.unit_length);
+    parts->meshes.emplace_back(shared().meshes[m], source.meshes[m].vertex_count(), room,
+                               shared().options.unit_length);
   if (torn)
     for (Index m = 0; m < parts->meshes.size(); ++m)
       parts->meshes[m].note_all(source.meshes[m], torn->model.character().meshes[m], epoch + 1);

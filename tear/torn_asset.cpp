@@ -6,6 +6,7 @@
 
 #include "core/internal/out_of_memory.h"
 #include "tear/model/asset_parts.h"
+#include "tear/model/growth.h"
 #include "tear/surface/memory_use.h"
 
 namespace sunder {
@@ -17,8 +18,10 @@ constexpr std::size_t kMaximumTriangles = kNone / 6;
 }  // namespace
 
 Status check_size(const Character& character, const TornCapacity& capacity) {
-  std::size_t triangles = capacity.triangles;
+  const bool is_limit = tear::is_limit(capacity);
+  std::size_t triangles = is_limit ? 0 : capacity.triangles;
   for (const Mesh& mesh : character.meshes) triangles += mesh.triangles.size();
+  if (is_limit && triangles <= kMaximumTriangles) return {};
   if (triangles <= kMaximumTriangles && capacity.vertices <= kMaximumTriangles &&
       capacity.operations <= kMaximumTriangles)
     return {};

@@ -7,6 +7,7 @@
 #include "core/internal/out_of_memory.h"
 #include "tear/detached/released_vertices.h"
 #include "tear/internal/surface.h"
+#include "tear/model/growth.h"
 #include "tear/model/instance.h"
 #include "tear/model/model_state.h"
 #include "tear/operation/cut.h"
@@ -62,8 +63,10 @@ Result<TearReport> TornModel::tear(const ModelPose& pose, std::span<const Blade>
   };
   const auto work = [&](tear::Outcome& outcome) {
     state.stroke.begin(stroke.front(), options);
-    for (const Blade& blade : stroke.subspan(1))
+    for (const Blade& blade : stroke.subspan(1)) {
       state.stroke.extend(blade, state.workpiece(), outcome);
+      tear::check_growth(state.capacity, *state.source, state.character);
+    }
     state.stroke.finish(state.workpiece(), outcome);
   };
   return state.perform<TearOperation>({pose, weights, change, options.wall_depth > 0}, write_entry,

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/budget/budget.h"
 #include "tools/messages/exit_code.h"
 #include "tools/messages/messages.h"
 #include "tools/model/model_reading.h"
@@ -28,6 +29,7 @@ struct InfoRequest {
   std::string pose = "rest";                    ///< As parse_pose().
   std::optional<std::filesystem::path> report;  ///< File for the JSON object.
   ModelReading reading;
+  BudgetLimits budget;
 };
 [[nodiscard]] ExitCode run_info(const InfoRequest& request);
 
@@ -83,6 +85,7 @@ struct TearRequest {
   std::optional<std::filesystem::path> picture;       ///< Output file for a picture.
   std::optional<std::filesystem::path> robot_limits;  ///< URDF: joint limits for `refit`.
   ModelReading reading;
+  BudgetLimits budget;
 };
 [[nodiscard]] ExitCode run_tear(const TearRequest& request);
 
@@ -92,6 +95,7 @@ struct ViewRequest {
   std::optional<std::filesystem::path> torn, operations;
   bool has_images = true;  ///< Whether the images of base colours are embedded.
   ModelReading reading;
+  BudgetLimits budget;
 };
 [[nodiscard]] ExitCode run_view(const ViewRequest& request);
 
@@ -106,6 +110,7 @@ struct PictureRequest {
   std::optional<std::filesystem::path> operations;  ///< Drawn on the model, not applied.
   std::vector<std::string> joints;  ///< Of a robot, in place of `pose`; as pose_of_joints().
   ModelReading reading;
+  BudgetLimits budget;
 };
 [[nodiscard]] ExitCode run_picture(const PictureRequest& request);
 
@@ -114,6 +119,7 @@ struct DemoRequest {
   std::optional<std::filesystem::path> model;  ///< Empty: the embedded model.
   std::filesystem::path folder = "demo";
   bool no_pictures = false;
+  BudgetLimits budget;
 };
 [[nodiscard]] ExitCode run_demo(const DemoRequest& request);
 
@@ -130,6 +136,7 @@ struct TransferRequest {
   std::optional<std::string> lock;  ///< Attribute of the target's vertices.
   std::optional<std::filesystem::path> report;
   ModelReading reading;
+  BudgetLimits budget;
 };
 [[nodiscard]] ExitCode run_transfer(const TransferRequest& request);
 
@@ -146,6 +153,7 @@ struct BindRequest {
   SaveOptions save;
   std::optional<std::filesystem::path> report;
   ModelReading reading;
+  BudgetLimits budget;
 };
 [[nodiscard]] ExitCode run_bind(const BindRequest& request);
 
@@ -160,6 +168,7 @@ struct ValidateRequest {
   unsigned jobs = 1;                              ///< Pairs of a manifest at a time.
   bool as_json_lines = false;                     ///< Progress and results on stdout.
   ModelReading reading;
+  BudgetLimits budget;
 };
 [[nodiscard]] ExitCode run_validate(const ValidateRequest& request);
 

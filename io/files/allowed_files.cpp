@@ -28,7 +28,14 @@ Descriptor above_standard(Descriptor descriptor) {
   return Descriptor(fcntl(descriptor.value(), F_DUPFD_CLOEXEC, 3));
 }
 
-Result<OpenFile> checked(Descriptor descriptor, const fs::path& file) {
+const char* kind_of(mode_t mode) {
+  if (S_ISDIR(mode)) return "a folder";
+  if (S_ISCHR(mode) || S_ISBLK(mode)) return "a device";
+  return S_ISFIFO(mode) ? "a pipe" : "a socket";
+}
+
+/// Checks what was opened, rather than what the path leads to by now.
+Result<OpenFile> checked(Descriptor descriptor, const fs::path& file, bool takes_pipes = false) {
   if (!descriptor.is_open())
     return errno == ENOENT || errno == ENOTDIR
                ? Status::failure(StatusCode::file_not_found, kNone, "no file '%s'",
@@ -36,10 +43,16 @@ Result<OpenFile> checked(Descriptor descriptor, const fs::path& file) {
                : Status::failure(StatusCode::file_unreadable, kNone, "cannot read '%s'",
                                  file.filename().c_str());
   struct stat about = {};
-  if (fstat(descriptor.value(), &about) != 0 || !S_ISREG(about.st_mode))
-    return Status::failure(StatusCode::file_unreadable, kNone, "'%s' is not a regular file",
+  if (fstat(descriptor.value(), &about) != 0)
+    return Status::failure(StatusCode::file_unreadable, kNone, "cannot read '%s'",
                            file.filename().c_str());
-  OpenFile opened{above_standard(std::move(descriptor)), static_cast<std::uint64_t>(about.st_size)};
+  const bool is_pipe = S_ISFIFO(about.st_mode);
+  if (!S_ISREG(about.st_mode) && !(is_pipe && takes_pipes))
+    return Status::failure(StatusCode::file_unreadable, kNone,
+                           "'%s' is %s; expected a regular file%s", file.filename().c_str(),
+                           kind_of(about.st_mode), takes_pipes ? " or a pipe" : "");
+  OpenFile opened{above_standard(std::move(descriptor)), static_cast<std::uint64_t>(about.st_size),
+                  is_pipe};
   if (!opened.descriptor.is_open())
     return Status::failure(StatusCode::limit_exceeded, kNone, "too many open files");
   return opened;
@@ -71,6 +84,10 @@ Result<OpenFile> open_regular_file(const fs::path& file) {
 
 Result<OpenFile> open_checked_file(const fs::path& canonical) {
   return checked(open_canonical(canonical), canonical);
+}
+
+Result<OpenFile> open_file_or_pipe(const fs::path& file) {
+  return checked(Descriptor(::open(file.c_str(), kForReading)), file, true);
 }
 
 AllowedFiles::AllowedFiles(const fs::path& folder, const std::vector<fs::path>& roots,

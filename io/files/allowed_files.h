@@ -13,13 +13,16 @@
 namespace sunder::files {
 
 struct OpenFile {
-  Descriptor descriptor;  ///< For reading; above 2, closed by exec.
+  Descriptor descriptor;  ///< For reading, without waiting; above 2, closed by exec.
   std::uint64_t bytes = 0;
+  bool is_pipe = false;
 };
 
 /// Opens a regular file for reading. Symbolic links in `file` are followed.
 /// @return file_not_found, file_unreadable (also if it is no regular file).
 [[nodiscard]] Result<OpenFile> open_regular_file(const std::filesystem::path& file);
+/// The same, and pipes; does not wait for their writers.
+[[nodiscard]] Result<OpenFile> open_file_or_pipe(const std::filesystem::path& file);
 
 /// The same for a canonical path, which was checked: fails if a part of it has become a link since.
 [[nodiscard]] Result<OpenFile> open_checked_file(const std::filesystem::path& canonical);

@@ -9,7 +9,7 @@
 #include <tiny_gltf.h>
 
 #include "io/files/allowed_files.h"
-#include "io/files/read_at.h"
+#include "io/files/read_file.h"
 #include "io/gltf/refusal.h"
 
 namespace sunder::gltf {
@@ -60,18 +60,11 @@ std::vector<std::byte> content_of(const Result<files::OpenFile>& opened,
            "%.80s: '%.80s' has %llu bytes; %llu are left of LoadOptions::maximum_bytes",
            place.c_str(), name.c_str(), static_cast<unsigned long long>(size),
            static_cast<unsigned long long>(maximum_bytes));
-  constexpr std::uint64_t kBlock = std::uint64_t{1} << 18;  // is in the cache when it is read to
-  std::vector<std::byte> bytes;
-  bytes.reserve(size);
-  while (bytes.size() < size) {
-    const std::size_t begin = bytes.size();
-    const auto block = static_cast<std::size_t>(std::min(kBlock, size - begin));
-    bytes.resize(begin + block);
-    if (files::read_at(opened->descriptor, bytes.data() + begin, block, begin) != block)
-      refuse(StatusCode::file_unreadable, kNone, "%.120s: '%.100s' ended early", place.c_str(),
-             name.c_str());
-  }
-  return bytes;
+  Result<std::vector<std::byte>> bytes = files::read_all(*opened, maximum_bytes);
+  if (!bytes)
+    refuse(bytes.error().code(), kNone, "%.120s: '%.100s': %.100s", place.c_str(), name.c_str(),
+           std::string(bytes.error().text()).c_str());
+  return std::move(*bytes);
 }
 
 }  // namespace

@@ -37,8 +37,10 @@ Place Place::at(std::size_t index) const {
 Place Place::at(const std::string& key) const {
   const auto found = value.find(key);
   if (found == value.end()) malformed("field '" + key + "' is missing");
-  return {*found, path + "/" + escaped(key), operation};
+  return {*found, pointer_to(key), operation};
 }
+
+std::string Place::pointer_to(const std::string& key) const { return path + "/" + escaped(key); }
 
 void Place::check_fields(std::initializer_list<std::string_view> known) const {
   if (!value.is_object()) expected("an object");

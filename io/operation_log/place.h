@@ -9,11 +9,11 @@
 #include <string>
 #include <string_view>
 
-#include <nlohmann/json.hpp>
+#include "io/internal/strict_json.h"
 
 namespace sunder::operation_log {
 
-using Json = nlohmann::ordered_json;  // Keeps the order of the bones in the log.
+using Json = StrictJson;
 
 constexpr double kLargest = 1e9;  ///< Largest absolute value of metres, seconds and scales.
 constexpr double kLargestMatrixEntry =
@@ -38,6 +38,14 @@ struct Place {
 
   [[nodiscard]] Place at(std::size_t index) const;
   [[nodiscard]] Place at(const std::string& key) const;
+  /// Calls visit(name, place) for each field of an object. at() would search the object for each.
+  template <class Visit>
+  void for_each_field(const Visit& visit) const {
+    for (const auto& [name, field] : value.items())
+      visit(name, Place{field, pointer_to(name), operation});
+  }
+  /// The JSON pointer to a field.
+  [[nodiscard]] std::string pointer_to(const std::string& key) const;
   [[nodiscard]] bool has(const char* key) const { return value.contains(key); }
 
   void check_fields(std::initializer_list<std::string_view> known) const;

@@ -39,8 +39,7 @@ BonesPose read_bones_pose(const Place& place) {
   const Place bones = place.at("bones");
   if (!bones.value.is_object()) bones.expected("an object");
   BonesPose pose;
-  for (const auto& [name, unused] : bones.value.items()) {
-    const Place bone = bones.at(name);
+  bones.for_each_field([&](const std::string& name, const Place& bone) {
     bone.check_fields({"translation", "rotation", "scale"});
     if (name.empty()) bone.malformed("a bone's name must not be empty");
     BonesPose::Bone read{.name = name, .translation = {}, .rotation = {}, .scale = {}};
@@ -49,7 +48,7 @@ BonesPose read_bones_pose(const Place& place) {
     if (bone.has("rotation")) read.rotation = read_rotation(bone.at("rotation"));
     if (bone.has("scale")) read.scale = read_vector<3>(bone.at("scale")).cast<float>();
     pose.bones.push_back(std::move(read));
-  }
+  });
   return pose;
 }
 

@@ -42,6 +42,7 @@ class CsvReader {
       text.remove_prefix(std::min(end + 1, text.size()));
       ++line_;
       if (trimmed(line).empty() || trimmed(line).front() == '#') continue;
+      if (const Status status = check_columns(line); !status) return status;
       const Status status = has_names_ ? read_row(fields_of(line)) : read_names(fields_of(line));
       if (!status) return status;
     }
@@ -52,15 +53,25 @@ class CsvReader {
   }
 
  private:
+  /// Checks the number of columns before a list of them takes memory.
+  Status check_columns(std::string_view line) const {
+    const auto columns = 1 + static_cast<std::size_t>(std::count(line.begin(), line.end(), ','));
+    if (has_names_ && columns != trajectory_.names.size() + 1)
+      return Status::failure(StatusCode::malformed_file, line_,
+                             "line %u has %zu columns, the names have %zu", line_, columns,
+                             trajectory_.names.size() + 1);
+    if (columns > kMaximumNames)
+      return Status::failure(StatusCode::limit_exceeded, line_,
+                             "line %u: %zu columns; the limit is %zu", line_, columns,
+                             kMaximumNames);
+    return {};
+  }
+
   Status read_names(const std::vector<std::string_view>& fields) {
     if (fields[0] != "time")
       return Status::failure(StatusCode::malformed_file, line_,
                              "line %u, column 1: '%s'; expected the name 'time'", line_,
                              shown(fields[0]).c_str());
-    if (fields.size() > kMaximumNames)
-      return Status::failure(StatusCode::limit_exceeded, line_,
-                             "line %u: %zu columns; the limit is %zu", line_, fields.size(),
-                             kMaximumNames);
     for (std::size_t column = 1; column < fields.size(); ++column) {
       if (fields[column].empty())
         return Status::failure(StatusCode::malformed_file, line_, "line %u, column %zu has no name",
@@ -77,10 +88,6 @@ class CsvReader {
   }
 
   Status read_row(const std::vector<std::string_view>& fields) {
-    if (fields.size() != trajectory_.names.size() + 1)
-      return Status::failure(StatusCode::malformed_file, line_,
-                             "line %u has %zu columns, the names have %zu", line_, fields.size(),
-                             trajectory_.names.size() + 1);
     for (std::size_t column = 0; column < fields.size(); ++column) {
       const std::string_view field = fields[column];
       double number = 0;

@@ -1,6 +1,6 @@
 #include <string>
 
-#include "io/operation_log/parse_json.h"
+#include "io/internal/strict_json.h"
 #include "io/operation_log/place.h"
 #include "io/trajectory/read_trajectory.h"
 
@@ -37,8 +37,9 @@ void read_sample(const Place& place, RobotTrajectory& trajectory) {
 }  // namespace
 
 RobotTrajectory read_json(std::string_view text) {
-  const operation_log::Json json = operation_log::parse_json(text);
-  const Place root{json, ""};
+  const Result<StrictJson> json = parse_strict_json(text);
+  if (!json) throw operation_log::Fault{json.error()};
+  const Place root{*json, ""};
   root.check_fields({"names", "samples"});
   RobotTrajectory trajectory;
   read_names(root.at("names"), trajectory);

@@ -1,11 +1,11 @@
 #include "io/urdf/mesh_files.h"
 
 #include <algorithm>
-#include <fstream>
 #include <string>
 #include <system_error>
 #include <utility>
 
+#include "io/files/read_file.h"
 #include "io/internal/base_colours.h"
 #include "io/internal/lower_extension.h"
 #include "io/urdf/merge_mesh.h"
@@ -22,10 +22,7 @@ constexpr std::uint64_t kMaximumImageBytes = std::uint64_t{256} << 20;
 
 /// The up axis of a COLLADA file, 'X', 'Y' or 'Z'; y is COLLADA's default.
 char collada_up_axis(const fs::path& file) {
-  std::string head(std::size_t{256} << 10, '\0');
-  std::ifstream stream(file, std::ios::binary);
-  stream.read(head.data(), static_cast<std::streamsize>(head.size()));
-  head.resize(static_cast<std::size_t>(std::max<std::streamsize>(stream.gcount(), 0)));
+  const std::string head = files::read_head(file, std::size_t{256} << 10);
   constexpr std::string_view kTag = "<up_axis>";
   const std::size_t at = head.find(kTag);
   if (at == std::string::npos) return 'Y';

@@ -7,6 +7,7 @@
 #include "core/internal/ordered.h"
 #include "tear/detached/released_vertices.h"
 #include "tear/geometry/tolerances.h"
+#include "tear/model/growth.h"
 #include "tear/pieces/pieces.h"
 #include "tear/surface/describe_change.h"
 #include "tear/weights/assign_weights.h"
@@ -22,9 +23,9 @@ TornModel::State::State(std::shared_ptr<const Character> from, tear::Surface sur
       editor(*source, character, std::move(surface)) {
   posed.forest().share(trees);
   if (cells) editor.changed_cells.share(std::move(cells));
-  editor.reserve(capacity);
+  editor.reserve(tear::is_limit(capacity) ? TornCapacity{} : capacity);
   untorn_ = editor.mark();
-  if (!capacity.is_fixed()) return;
+  if (!editor.room.is_fixed()) return;
   pose.model_from_bone.resize(character.skeleton.bones.size());
   pose.morph_weights.resize(character.rest_morph_weights.size());
   posed.cover(editor.surface().point_count() + capacity.vertices);
@@ -35,7 +36,7 @@ TornModel::State::State(std::shared_ptr<const Character> from, tear::Surface sur
 
 tear::History TornModel::State::new_history() const {
   tear::History empty;
-  if (!capacity.is_fixed()) return empty;
+  if (!editor.room.is_fixed()) return empty;
   ModelPose of_any;
   of_any.model_from_bone.resize(character.skeleton.bones.size());
   of_any.morph_weights.resize(character.rest_morph_weights.size());
@@ -82,6 +83,11 @@ Status TornModel::State::may_begin() const {
 }
 
 Status TornModel::State::no_room(const tear::CapacityExceeded& exceeded) const {
+  if (tear::is_limit(capacity))
+    return Status::failure(StatusCode::capacity_exceeded, kNone,
+                           "no room left for %s: operations may add %u vertices and %u triangles "
+                           "to a mesh",
+                           exceeded.what, capacity.vertices, capacity.triangles);
   return Status::failure(StatusCode::capacity_exceeded, kNone,
                          "no room left for %s: the model was made for %u more vertices, %u more "
                          "triangles and %u operations",
@@ -132,8 +138,10 @@ void TornModel::State::describe_call(ChangeRecord& change, bool is_detachment) {
                     editor.surface(), change.rims);
 }
 
-/// Reserves memory, so that keep_borders() and record() do not fail.
+/// Reserves memory, so that keep_borders() and record() do not fail, and checks the limit of what
+/// operations add.
 void TornModel::State::make_room_for_borders() {
+  tear::check_growth(capacity, *source, character);
   const auto& [lips, rim_points] = borders_.of_call;
   tear::make_room_to_hold(borders_.of_operation.lips.size() + lips.size(),
                           borders_.of_operation.lips);

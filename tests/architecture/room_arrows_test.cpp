@@ -75,6 +75,7 @@ const std::map<std::string, Rooms> kRooms = {
       {"gltf_still", {"gltf", "gltf_read", "gltf_write", "files"}},
       {"compression", {}},
       {"urdf", {"gltf", "gltf_read", "gltf_write", "files"}},
+      {"json", {}},
       {"operation_log", {}},
       {"trajectory", {"operation_log"}},
       {"files", {}}}},

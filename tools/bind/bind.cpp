@@ -160,10 +160,12 @@ ExitCode run_bind(const BindRequest& request) {
     print_error("sunder: " + fault);
     return ExitCode::usage;
   }
+  Budget budget(request.budget, request.model.string());
   Inputs inputs;
   if (const ExitCode code = read_inputs(request, inputs); code != ExitCode::ok) return code;
   const Result<AnyBinding> binding = bind_models(request, inputs);
   if (!binding) return complain(blamed(request, binding.error()), binding.error(), ExitCode::usage);
+  budget.end();
   if (const ExitCode code = write_files(request, inputs, *binding); code != ExitCode::ok)
     return code;
   print(bind_table(*binding));

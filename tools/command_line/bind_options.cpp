@@ -79,6 +79,7 @@ CLI::App* add_bind(CLI::App& app, BindRequest& request) {
   add_weights_as(*verb, request.save);
   verb->add_option("--report", request.report, "File for a JSON report")->type_name("FILE");
   add_model_reading(*verb, request.reading);
+  add_budget(*verb, request.budget);
   verb->footer(
       "Exit code 1 with warnings.\n\n"
       "Example: sunder bind glove.glb --skeleton hand.urdf --map bones.json --fit -o bound.glb");

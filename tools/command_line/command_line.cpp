@@ -19,7 +19,8 @@ constexpr const char* kExitCodes =
     "  1  done, with findings\n"
     "  2  the command line or the operations are invalid\n"
     "  3  a file cannot be read or written\n"
-    "  4  a limit was exceeded: size, memory, time\n"
+    "  4  a limit was exceeded: size, memory, time, vertices; --max-seconds, --max-memory and\n"
+    "     --max-vertices allow more\n"
     "  5  internal error; please report it\n"
     "Data goes to stdout, messages go to stderr.";
 

@@ -13,6 +13,7 @@ CLI::App* add_demo(CLI::App& app, DemoRequest& request) {
       ->type_name("FOLDER")
       ->capture_default_str();
   verb->add_flag("--no-pictures", request.no_pictures, "Writes everything except pictures.");
+  add_budget(*verb, request.budget);
   verb->footer("Example: sunder demo fox.glb -o fox_demo");
   return verb;
 }

@@ -22,6 +22,7 @@ CLI::App* add_info(CLI::App& app, InfoRequest& request) {
   verb->add_option("--report", request.report, "File for the JSON object, beside the text")
       ->type_name("FILE");
   add_model_reading(*verb, request.reading);
+  add_budget(*verb, request.budget);
   verb->footer(
       "Exit code 1 if loading repaired or dropped something, or found faults of a "
       "robot.\n\nExample: sunder info fox.glb "

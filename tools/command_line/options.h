@@ -29,6 +29,11 @@ void add_robot(CLI::App& verb, RobotTearRequest& robot);
 /// `--strict`, `--package-root`, `--import-seconds` and `--memory`: how the verb reads its models.
 void add_model_reading(CLI::App& verb, ModelReading& reading);
 
+/// `--max-seconds` and `--max-memory`: the work that the verb may do.
+void add_budget(CLI::App& verb, BudgetLimits& limits);
+/// `--max-vertices` too, for a verb that applies operations.
+void add_budget_of_operations(CLI::App& verb, BudgetLimits& limits);
+
 /// `--weights-as`, the number format of written weights.
 void add_weights_as(CLI::App& verb, SaveOptions& save);
 /// `--max-error` and its limits, which exclude that the caller chooses influences and format.

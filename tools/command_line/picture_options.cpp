@@ -103,6 +103,7 @@ CLI::App* add_picture(CLI::App& app, PictureRequest& request) {
                    "Operation log: draws its blades, planes and bores; nothing is torn")
       ->type_name("FILE");
   add_model_reading(*verb, request.reading);
+  add_budget_of_operations(*verb, request.budget);
   verb->footer(
       "Needs f3d and Xvfb. Exit code 1 if something asked for could not be drawn; stderr says "
       "what.\n\n"

@@ -163,6 +163,7 @@ CLI::App* add_tear(CLI::App& app, TearRequest& request) {
     if (!request.dry_run && !request.output) throw CLI::RequiredError("--output (or --dry-run)");
   });
   add_model_reading(*verb, request.reading);
+  add_budget_of_operations(*verb, request.budget);
   verb->footer(
       "If an operation fails, nothing is written. Exit code 1 if an operation met no surface or "
       "could not tear some places (see the report), or if the picture could not be drawn.\n\n"

@@ -89,6 +89,7 @@ CLI::App* add_transfer(CLI::App& app, TransferRequest& request) {
       throw CLI::ValidationError("--output", "is needed without --dry-run, and only then");
   });
   add_model_reading(*verb, request.reading);
+  add_budget(*verb, request.budget);
   verb->footer(
       "Exit code 1 with warnings, 2 if nothing matched; then nothing is written.\n\n"
       "Example: sunder transfer body.glb jacket.glb -o skinned.glb --influences 4");

@@ -42,6 +42,7 @@ CLI::App* add_validate(CLI::App& app, ValidateRequest& request) {
       throw CLI::RequiredError("SOURCE and TARGET, or --manifest");
   });
   add_model_reading(*verb, request.reading);
+  add_budget_of_operations(*verb, request.budget);
   verb->footer(
       "Exit code 1 if there is a finding at or above --fail-on.\n\n"
       "Example: sunder validate fox.glb torn.glb --ops ops.json --limits clips");

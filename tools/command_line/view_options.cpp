@@ -20,6 +20,7 @@ CLI::App* add_view(CLI::App& app, ViewRequest& request) {
       "--without-images", [&request] { request.has_images = false; },
       "Leave out the images of base colours, for a smaller page");
   add_model_reading(*verb, request.reading);
+  add_budget_of_operations(*verb, request.budget);
   verb->footer(
       "The page saves an operation log that `sunder tear` takes; see docs/view_page.md.\n\n"
       "Example: sunder view fox.glb -o fox.html");

@@ -136,6 +136,7 @@ ExitCode run_demo(const DemoRequest& request) {
       return ExitCode::usage;
     }
   }
+  Budget budget(request.budget, place);
   ProgressBar progress(2 + kDemoPictures);
   progress.begin_step(0, "reading");
   const Result<DemoModel> model = get_model(request);
@@ -152,6 +153,7 @@ ExitCode run_demo(const DemoRequest& request) {
   progress.begin_step(1, "tearing");
   Result<TornDemo> demo = tear_mid_clip(model->loaded.character);
   if (!demo) return complain(place, demo.error(), ExitCode::unreadable_input);
+  budget.end();
   if (const ExitCode code = write_results(request, place, *model, *demo); code != ExitCode::ok)
     return code;
   if (demo->outcome.has_missed) {

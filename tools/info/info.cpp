@@ -229,12 +229,13 @@ ExitCode describe(const InfoRequest& request, const LoadedCharacter& loaded, Jso
 }
 
 /// A robot is described also where it has no meshes, and what is wrong where it is refused.
-ExitCode describe_robot(const InfoRequest& request) {
+ExitCode describe_robot(const InfoRequest& request, Budget& budget) {
   std::vector<RobotFinding> findings;
   Result<LoadedRobot> loaded =
       load_robot(request.model, robot_load_options(request.reading), &findings);
   Json info = {{"sunder_info", 1}, {"model", request.model.string()}};
   if (!loaded) {
+    budget.end();
     info["robot"] = nullptr;
     info["findings"] = findings_json(findings);
     if (const ExitCode code = put_out(request, info, findings_text(findings)); code != ExitCode::ok)
@@ -251,6 +252,7 @@ ExitCode describe_robot(const InfoRequest& request) {
   info["findings"] = findings_json(findings);
   Lines text = robot_text(loaded->robot);
   text.add(findings_text(findings));
+  budget.end();
   if (const ExitCode code = put_out(request, info, text); code != ExitCode::ok) return code;
   const bool has_warnings = std::any_of(
       findings.begin(), findings.end(),
@@ -268,13 +270,15 @@ ExitCode run_info(const InfoRequest& request) {
       print_error("sunder: " + fault);
       return ExitCode::usage;
     }
-  if (is_urdf(request.model)) return describe_robot(request);
+  Budget budget(request.budget, request.model.string());
+  if (is_urdf(request.model)) return describe_robot(request, budget);
   const Result<LoadedCharacter> loaded =
       load_character(request.model, load_options(request.reading));
   if (!loaded) return complain(request.model.string(), loaded.error(), ExitCode::unreadable_input);
   warn_of_protection(request.model.string(), loaded->report, Messages(Verbosity::normal));
   Json info;
   if (const ExitCode code = describe(request, *loaded, info); code != ExitCode::ok) return code;
+  budget.end();
   if (const ExitCode code = put_out(request, info, {}); code != ExitCode::ok) return code;
 
   const auto& notes = loaded->report.notes;

@@ -39,6 +39,7 @@ std::string with_option_names(std::string text) {
 std::string failure_text(const std::string& place, const Status& status) {
   std::string text(status.text());
   text.erase(0, length_of_name(text, place));
+  if (status.code() == StatusCode::capacity_exceeded) text += "; --max-vertices allows more";
   return with_option_names(std::move(text));
 }
 

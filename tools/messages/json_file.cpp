@@ -1,19 +1,17 @@
 #include "tools/messages/json_file.h"
 
-#include <fstream>
-#include <sstream>
-#include <utility>
+#include <string>
+
+#include "io/internal/read_input.h"
+#include "io/internal/strict_json.h"
 
 namespace sunder::tools {
 
 Result<Json> read_json_object(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  if (!stream)
-    return Status::failure(StatusCode::file_unreadable, kNone, "this file cannot be read");
-  Json json = Json::parse(text.str(), nullptr, false);
-  if (!json.is_object())
+  const Result<std::string> text = read_input(file, kMaximumJsonBytes);
+  if (!text) return text.error();
+  Result<Json> json = parse_strict_json(*text);
+  if (json && !json->is_object())
     return Status::failure(StatusCode::malformed_file, kNone, "the file is not one JSON object");
   return json;
 }

@@ -8,8 +8,8 @@
 
 namespace sunder::tools {
 
-/// Reads a file that holds one JSON object.
-/// @return file_unreadable, or malformed_file for other content.
+/// Reads a file, or a pipe, that holds one JSON object.
+/// @return as read_input() and parse_strict_json(); malformed_file for other content.
 [[nodiscard]] Result<Json> read_json_object(const std::filesystem::path& file);
 
 }  // namespace sunder::tools

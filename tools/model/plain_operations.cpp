@@ -22,7 +22,8 @@ Status at_operation(std::size_t number, const Status& status, const std::string&
 }  // namespace
 
 Result<std::vector<Operation>> load_plain_operations(
-    const std::filesystem::path& file, const std::shared_ptr<const Character>& character) {
+    const std::filesystem::path& file, const std::shared_ptr<const Character>& character,
+    Budget& budget) {
   auto logged = load_aimed_operations(file);
   if (!logged) return logged.error();
   const auto last_aimed = std::find_if(
@@ -35,10 +36,11 @@ Result<std::vector<Operation>> load_plain_operations(
     return plain;
   }
   if (const Status status = provide_coupled_refits(*logged); !status) return status;
-  auto model = TornModel::create(character);
+  auto model = TornModel::create(character, budget.capacity());
   if (!model) return model.error();
   for (std::size_t i = 0; i < logged->size(); ++i) {
     LoggedOperation& of = (*logged)[i];
+    budget.begin(file.string() + ": /operations/" + std::to_string(i));
     if (const auto* const aimed = std::get_if<AimedOperation>(&of)) {
       auto resolved = resolve(*model, *aimed);
       if (!resolved) return at_operation(i, resolved.error(), advice_on_names(*aimed, *character));
@@ -50,6 +52,7 @@ Result<std::vector<Operation>> load_plain_operations(
     if (const auto applied = apply_operation(*model, plain.back()); !applied)
       return at_operation(i, applied.error(), advice_on_names(plain.back(), *character));
   }
+  budget.begin(file.string());
   return plain;
 }
 

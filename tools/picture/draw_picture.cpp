@@ -241,13 +241,14 @@ ExitCode run_picture(const PictureRequest& request) {
   }
   if (const std::string fault = other_ending({"--output", request.output}, "png"); !fault.empty())
     warn(fault);
+  Budget budget(request.budget, request.model.string());
   const Result<LoadedCharacter> loaded =
       load_character(request.model, load_options(request.reading));
   if (!loaded) return complain(request.model.string(), loaded.error(), ExitCode::unreadable_input);
   warn_of_repairs(request.model.string(), loaded->report, Messages(Verbosity::normal));
   std::vector<Operation> log;
   if (request.operations) {
-    auto read = load_plain_operations(*request.operations, loaded->character);
+    auto read = load_plain_operations(*request.operations, loaded->character, budget);
     if (!read) return complain(request.operations->string(), read.error(), ExitCode::usage);
     log = std::move(*read);
   }
@@ -276,6 +277,7 @@ ExitCode run_picture(const PictureRequest& request) {
     return complain(request.model.string() + ": pose " + pose->name, subject.error(),
                     ExitCode::usage);
   warn_of_other_poses(*loaded->character, *subject, *operations);
+  budget.end();
   if (!can_draw()) {
     print_error(std::string("sunder: no picture: ") + kNoRenderer);
     return ExitCode::unreadable_input;

@@ -147,6 +147,7 @@ ExitCode finish(TearRun& run, Clock::time_point begin) {
     if (!json) return complain(request.model.string(), json.error(), ExitCode::internal_error);
     report = dump(*json);
   }
+  run.budget.end();
   const auto saving = Clock::now();
   if (const ExitCode code = write_files(run, report); code != ExitCode::ok) return code;
   if (const ExitCode code = write_pieces(run); code != ExitCode::ok) return code;
@@ -198,6 +199,7 @@ ExitCode add_robot_tear(TearRun& run, std::vector<WantedOperation>& operations) 
 ExitCode run_tear(const TearRequest& request) {
   const auto begin = Clock::now();
   const Messages messages(request.verbosity);
+  Budget budget(request.budget, request.model.string());
   if (const ExitCode code = check_outputs(request); code != ExitCode::ok) return code;
   Result<std::vector<WantedOperation>> operations = wanted_operations(request);
   if (!operations)
@@ -213,7 +215,7 @@ ExitCode run_tear(const TearRequest& request) {
   const double loading = seconds_since(begin);
   warn_of_repairs(place, loaded->report, messages);
   warn_of_options(request, *loaded->character, messages);
-  Result<TornModel> model = TornModel::create(loaded->character);
+  Result<TornModel> model = TornModel::create(loaded->character, budget.capacity());
   if (!model) return complain(place, model.error(), ExitCode::internal_error);
   const Result<Weighing> weighing = choose_weighing(request, loaded->character);
   if (!weighing)
@@ -225,9 +227,15 @@ ExitCode run_tear(const TearRequest& request) {
 
   const Result<TopologyCounts> counts = count_topology(*loaded->character);
   if (!counts) return complain(place, counts.error(), ExitCode::internal_error);
-  TearRun run{request,           messages,  *loaded,
-              std::move(*model), *weighing, PosedSource(loaded->character),
-              *counts,           *counts};
+  TearRun run{request,
+              messages,
+              budget,
+              *loaded,
+              std::move(*model),
+              *weighing,
+              PosedSource(loaded->character),
+              *counts,
+              *counts};
   run.times.loading = loading;
   if (request.pieces)
     run.pieces.emplace(request.pieces_are_animated ? PieceMotion::animated : PieceMotion::frozen);

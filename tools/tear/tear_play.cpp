@@ -173,15 +173,18 @@ ExitCode play_operations(const std::vector<WantedOperation>& operations, TearRun
   for (std::size_t i = 0; i < operations.size(); ++i) {
     progress.begin_step(i + 1, "tearing");
     const WantedOperation& wanted = operations[i];
+    const std::string place =
+        wanted.file.empty() ? wanted.place : wanted.file + ": " + wanted.place;
+    run.budget.begin(place);
     const bool is_measured = run.request.weight_errors && i % step == 0;
     const LoggedOperation operation = meant(wanted, run.model.source());
     const Result<Operation> plain = plain_operation(operation, run.model);
     const Status status =
         plain ? play_one(*plain, wanted.place, is_measured, current, run) : plain.error();
     if (!status)
-      return complain(wanted.file.empty() ? wanted.place : wanted.file + ": " + wanted.place,
-                      status, ExitCode::usage, advice_on(operation, run.model.source()));
+      return complain(place, status, ExitCode::usage, advice_on(operation, run.model.source()));
   }
+  run.budget.begin(run.request.model.string());
   progress.begin_step(operations.size() + 1, "weighing");
   if (!run.weighing.refit) return ExitCode::ok;
   for (const WeightsOperation& refit :

@@ -39,6 +39,7 @@ struct RunTimes {
 struct TearRun {
   const TearRequest& request;
   const Messages& messages;
+  Budget& budget;
   const LoadedCharacter& loaded;
   TornModel model;
   Weighing weighing;

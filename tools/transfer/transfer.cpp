@@ -131,6 +131,7 @@ ExitCode run_transfer(const TransferRequest& request) {
     print_error("sunder: " + fault);
     return ExitCode::usage;
   }
+  Budget budget(request.budget, request.target.string());
   const Result<LoadedCharacter> source =
       load_character(request.source, load_options(request.reading));
   if (!source) return complain(request.source.string(), source.error(), ExitCode::unreadable_input);
@@ -154,6 +155,7 @@ ExitCode run_transfer(const TransferRequest& request) {
       return complain("--max-error, --limits " + wanted->limits, weights.error(), ExitCode::usage);
     certified = std::move(*weights);
   }
+  budget.end();
   if (const ExitCode code = write_files(request, *target, *result, certified); code != ExitCode::ok)
     return code;
   Lines lines = transfer_table(request, *result);

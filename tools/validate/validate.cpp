@@ -84,11 +84,12 @@ class Output {
   std::mutex mutex_;
 };
 
-ExitCode run_job(const Job& job, Severity fail_on, Output& output) {
+ExitCode run_job(const Job& job, Severity fail_on, Budget& budget, Output& output) {
   ValidateFailure failure;
   const auto pair = validate_pair(
       job.pair, [&](std::string_view stage, double share) { output.progress(job, stage, share); },
-      failure);
+      budget, failure);
+  const Budget::Writing writing(budget);
   if (!pair) return output.failure(job, failure);
   if (job.report)
     if (const Status status = write_text(*job.report, dump(validation_json(*pair))); !status)
@@ -141,13 +142,13 @@ Status read_manifest(const std::filesystem::path& file, const ValidateRequest& r
 }
 
 /// Runs all jobs, some at a time. @return the greatest exit code.
-ExitCode run_jobs(const std::vector<Job>& jobs, unsigned threads, Severity fail_on,
+ExitCode run_jobs(const std::vector<Job>& jobs, unsigned threads, Severity fail_on, Budget& budget,
                   Output& output) {
   std::atomic<std::size_t> next = 0;
   std::atomic<int> worst = 0;
   const auto work = [&] {
     for (std::size_t i = next++; i < jobs.size(); i = next++) {
-      const int code = static_cast<int>(run_job(jobs[i], fail_on, output));
+      const int code = static_cast<int>(run_job(jobs[i], fail_on, budget, output));
       int seen = worst.load();
       while (code > seen && !worst.compare_exchange_weak(seen, code)) {
       }
@@ -181,6 +182,7 @@ ExitCode run_validate(const ValidateRequest& request) {
   const Severity fail_on = request.fail_on == "note"      ? Severity::note
                            : request.fail_on == "warning" ? Severity::warning
                                                           : Severity::error;
+  Budget budget(request.budget, (request.manifest ? *request.manifest : request.target).string());
   std::vector<Job> jobs;
   if (request.manifest) {
     if (const Status status = read_manifest(*request.manifest, request, jobs); !status)
@@ -202,7 +204,7 @@ ExitCode run_validate(const ValidateRequest& request) {
       return complain("--html", status, ExitCode::usage);
   }
   Output output(request);
-  return run_jobs(jobs, request.jobs, fail_on, output);
+  return run_jobs(jobs, request.jobs, fail_on, budget, output);
 }
 
 }  // namespace sunder::tools

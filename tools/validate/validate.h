@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/budget/budget.h"
 #include "tools/messages/exit_code.h"
 #include "tools/messages/json.h"
 #include "tools/messages/lines.h"
@@ -42,11 +43,12 @@ struct ValidateFailure {
 };
 
 /// Loads both models and compares them. Repairs that loading made are findings.
+/// @param budget  told which pair is compared.
 /// @param failure  written where there is no result.
 /// @param progress  see ValidationOptions.
 [[nodiscard]] std::optional<ValidatedPair> validate_pair(
     const ValidatePair& pair, const std::function<void(std::string_view, double)>& progress,
-    ValidateFailure& failure);
+    Budget& budget, ValidateFailure& failure);
 
 /// The report for machines: version, files, verdicts, findings with places, figures.
 [[nodiscard]] Json validation_json(const ValidatedPair& pair);

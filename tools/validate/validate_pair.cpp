@@ -76,10 +76,10 @@ std::optional<LoadedCharacter> load(const std::filesystem::path& file, const Val
 
 /// Fills the options from the files that the command line names.
 bool read_options(const ValidatePair& pair, const std::shared_ptr<const Character>& character,
-                  std::vector<Operation>& operations, ValidationOptions& options,
+                  std::vector<Operation>& operations, ValidationOptions& options, Budget& budget,
                   ValidateFailure& failure) {
   if (pair.operations) {
-    Result<std::vector<Operation>> log = load_plain_operations(*pair.operations, character);
+    Result<std::vector<Operation>> log = load_plain_operations(*pair.operations, character, budget);
     if (!log) failure = {pair.operations->string(), log.error(), ExitCode::usage};
     if (!log) return false;
     operations = std::move(*log);
@@ -110,7 +110,8 @@ bool read_options(const ValidatePair& pair, const std::shared_ptr<const Characte
 
 std::optional<ValidatedPair> validate_pair(
     const ValidatePair& pair, const std::function<void(std::string_view, double)>& progress,
-    ValidateFailure& failure) {
+    Budget& budget, ValidateFailure& failure) {
+  budget.begin(pair.target.string());
   auto source = load(pair.source, pair, failure);
   if (!source) return {};
   auto target = load(pair.target, pair, failure);
@@ -122,7 +123,8 @@ std::optional<ValidatedPair> validate_pair(
   if (pair.over_time) options.times_per_clip = kTimesPerClip;
   options.progress = progress;
   std::vector<Operation> operations;
-  if (!read_options(pair, source->character, operations, options, failure)) return {};
+  if (!read_options(pair, source->character, operations, options, budget, failure)) return {};
+  budget.begin(pair.target.string());
   Result<ValidationReport> report = validate_skin(source->character, target->character, options);
   if (!report) {
     failure = {pair.target.string(), report.error(), ExitCode::usage};

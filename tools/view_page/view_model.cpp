@@ -53,6 +53,7 @@ ExitCode run_view(const ViewRequest& request) {
     print_error("sunder: " + fault);
     return ExitCode::usage;
   }
+  Budget budget(request.budget, request.model.string());
   ViewInput input;
   LoadedCharacter model, torn;
   if (const Status status = view(request.model, request, model, input.model); !status)
@@ -61,13 +62,14 @@ ExitCode run_view(const ViewRequest& request) {
     if (const Status status = view(*request.torn, request, torn, input.torn); !status)
       return complain(request.torn->string(), status, ExitCode::unreadable_input);
   if (request.operations) {
-    const auto operations = load_plain_operations(*request.operations, model.character);
+    const auto operations = load_plain_operations(*request.operations, model.character, budget);
     if (!operations)
       return complain(request.operations->string(), operations.error(), ExitCode::usage);
     Result<std::string> text = format_operations(*operations);
     if (!text) return complain(request.operations->string(), text.error(), ExitCode::usage);
     input.operations = std::move(*text);
   }
+  budget.end();
   const Status status = write_view_page(request.output, input);
   return status ? ExitCode::ok : complain(request.output.string(), status, ExitCode::usage);
 }

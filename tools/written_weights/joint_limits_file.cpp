@@ -6,7 +6,9 @@
 #include <sunder/validation/validation.h>
 
 #include <algorithm>
+#include <map>
 #include <numbers>
+#include <string_view>
 
 #include "tools/messages/json_file.h"
 #include "tools/model/robot_joints.h"
@@ -78,13 +80,14 @@ Result<JointLimits> read_joint_limits(const std::filesystem::path& file,
   if (of_bones == json->end() || !of_bones->is_object())
     return Status::failure(StatusCode::malformed_file, kNone, "/limits: expected an object");
   const auto& bones = character.skeleton.bones;
+  std::map<std::string_view, std::size_t> index_of;  // a name that several have: of the first
+  for (std::size_t i = 0; i < bones.size(); ++i) index_of.emplace(bones[i].name, i);
   for (const auto& [name, range] : of_bones->items()) {
-    const auto bone = std::ranges::find(bones, name, &Bone::name);
-    if (bone == bones.end())
+    const auto bone = index_of.find(name);
+    if (bone == index_of.end())
       return Status::failure(StatusCode::not_found, kNone, "/limits: no bone '%.80s'",
                              name.c_str());
-    const auto index = static_cast<std::size_t>(bone - bones.begin());
-    if (const Status status = read_range(range, name, limits->of_bone[index]); !status)
+    if (const Status status = read_range(range, name, limits->of_bone[bone->second]); !status)
       return status;
   }
   return limits;

@@ -1,0 +1,106 @@
+#include "tools/budget/budget.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+#include <new>
+#include <unistd.h>
+#include <utility>
+
+#include "tools/messages/exit_code.h"
+#include "tools/messages/messages.h"
+
+namespace sunder::tools {
+namespace {
+
+constexpr std::chrono::milliseconds kBetweenLooks(50);
+constexpr double kMegabyte = 1 << 20;
+
+/// The memory of the process that is in use now; 0 where the system does not say.
+double resident_megabytes() {
+  std::FILE* const file = std::fopen("/proc/self/statm", "re");
+  if (file == nullptr) return 0;
+  unsigned long long pages = 0;
+  const bool is_known = std::fscanf(file, "%*u %llu", &pages) == 1;
+  (void)std::fclose(file);
+  return is_known
+             ? static_cast<double>(pages) * static_cast<double>(sysconf(_SC_PAGESIZE)) / kMegabyte
+             : 0;
+}
+
+}  // namespace
+
+Budget::Budget(const BudgetLimits& limits, std::string place)
+    : limits_(limits), place_(std::move(place)), watch_([this] { watch(); }) {}
+
+Budget::~Budget() {
+  {
+    const std::scoped_lock lock(mutex_);
+    has_ended_ = true;
+  }
+  changed_.notify_one();
+  watch_.join();
+}
+
+void Budget::begin(const std::string& place) {
+  const std::scoped_lock lock(mutex_);
+  place_ = place;
+}
+
+void Budget::end() {
+  const std::scoped_lock lock(mutex_);
+  if (has_ended_) return;
+  check();
+  has_ended_ = true;
+  changed_.notify_one();
+}
+
+Budget::Writing::Writing(Budget& budget) : budget_(budget) {
+  const std::scoped_lock lock(budget_.mutex_);
+  if (!budget_.has_ended_ && budget_.writing_ == 0) budget_.check();
+  ++budget_.writing_;
+}
+
+Budget::Writing::~Writing() {
+  const std::scoped_lock lock(budget_.mutex_);
+  --budget_.writing_;
+}
+
+TornCapacity Budget::capacity() const {
+  constexpr std::uint32_t kPerVertex = 4;
+  constexpr std::uint32_t kMost = std::numeric_limits<std::uint32_t>::max() / kPerVertex;
+  return {limits_.vertices, kPerVertex * std::min(limits_.vertices, kMost), kNone};
+}
+
+void Budget::watch() {
+  std::unique_lock lock(mutex_);
+  while (!has_ended_) {
+    if (writing_ == 0) check();
+    changed_.wait_for(lock, kBetweenLooks, [this] { return has_ended_; });
+  }
+}
+
+void Budget::check() const {
+  if (std::chrono::duration<double>(Clock::now() - start_).count() > limits_.seconds)
+    stop("%g s", limits_.seconds, "--max-seconds");
+  if (resident_megabytes() > limits_.megabytes)
+    stop("%g MB of memory", limits_.megabytes, "--max-memory");
+}
+
+/// Nothing is left half written: files are written beside their places, and no thread of the
+/// command is at that.
+void Budget::stop(const char* format, double limit, const char* option) const {
+  char amount[64];
+  (void)std::snprintf(amount, sizeof amount, format, limit);
+  try {
+    print_error("sunder: " + place_ + ": takes more than " + amount + "; " + option +
+                " allows more (" + std::string(status_name(StatusCode::limit_exceeded)) + ")");
+  } catch (const std::bad_alloc&) {
+    std::fputs("sunder: out of memory\n", stderr);
+  }
+  std::fflush(stdout);  // what is finished
+  std::_Exit(static_cast<int>(ExitCode::limit_exceeded));
+}
+
+}  // namespace sunder::tools
