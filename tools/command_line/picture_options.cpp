@@ -104,8 +104,7 @@ CLI::App* add_picture(CLI::App& app, PictureRequest& request) {
       ->type_name("FILE");
   add_model_reading(*verb, request.reading);
   verb->footer(
-      "Needs f3d and Xvfb. Exit code 1 if something asked for could not be drawn; stderr says "
-      "what.\n\n"
+      "Exit code 1 if something asked for could not be drawn; stderr says what.\n\n"
       "Example: sunder picture fox.glb -o fox.png --pose Walk@0.4 --from left --ops ops.json");
   return verb;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
@@ -83,6 +84,8 @@ class Motion {
   bool runs_on_ = false;
 };
 
+static_assert(kDemoSteps == kFrames + std::size(kShots));
+
 /// Tears as far as a picture of the motion shows.
 Status tear_in_motion(int frame, TornActor& actor, std::size_t& next) {
   const int step = frame - kFramesBefore + 1;
@@ -96,7 +99,7 @@ Status tear_in_motion(int frame, TornActor& actor, std::size_t& next) {
 }
 
 Status draw_motion(const DemoTear& tear, const ModelLooks& looks, const std::filesystem::path& png,
-                   TornActor& actor) {
+                   std::size_t first_step, ProgressBar& progress, TornActor& actor) {
   const Result<Motion> motion = Motion::create(*tear.source);
   if (!motion) return motion.error();
   std::vector<Vec3d> places, wound;
@@ -109,6 +112,7 @@ Status draw_motion(const DemoTear& tear, const ModelLooks& looks, const std::fil
   std::vector<Picture> pictures;
   std::size_t next = 0;
   for (int frame = 0; frame < kFrames; ++frame) {
+    progress.begin_step(first_step++, "drawing motion");
     if (const Status status = actor.play(motion->pose(frame), kFrame); !status) return status;
     if (const Status status = tear_in_motion(frame, actor, next); !status) return status;
     if (const Status status = actor.play(motion->pose(frame), 0); !status) return status;
@@ -162,9 +166,11 @@ Status draw_demo(const DemoTear& tear, const ModelLooks& looks, const std::files
                  std::size_t first_step, ProgressBar& progress) {
   Result<TornActor> actor = TornActor::create(tear.source, tear.operation);
   if (!actor) return actor.error();
-  progress.begin_step(first_step++, "drawing motion");
-  if (const Status status = draw_motion(tear, looks, folder / "motion.png", *actor); !status)
+  if (const Status status =
+          draw_motion(tear, looks, folder / "motion.png", first_step, progress, *actor);
+      !status)
     return status;
+  first_step += kFrames;
   ViewFrame frame = tear.frame;
   for (const Shot& shot : kShots) {
     progress.begin_step(first_step++, std::string("drawing ") + shot.name);
