@@ -30,7 +30,9 @@ Picture gradient(int width, int height, int offset = 0) {
   return picture;
 }
 
-std::vector<std::byte> as_jpeg(const Picture& picture) {
+/// @param scans  of a progressive file; empty: one for all.
+std::vector<std::byte> as_jpeg(const Picture& picture,
+                               const std::vector<jpeg_scan_info>& scans = {}) {
   jpeg_compress_struct jpeg = {};
   jpeg_error_mgr errors = {};
   jpeg.err = jpeg_std_error(&errors);
@@ -44,6 +46,8 @@ std::vector<std::byte> as_jpeg(const Picture& picture) {
   jpeg.in_color_space = JCS_RGB;
   jpeg_set_defaults(&jpeg);
   jpeg_set_quality(&jpeg, 95, TRUE);
+  jpeg.scan_info = scans.empty() ? nullptr : scans.data();
+  jpeg.num_scans = static_cast<int>(scans.size());
   jpeg_start_compress(&jpeg, TRUE);
   for (int y = 0; y < picture.height; ++y) {
     auto row = picture.colors;
@@ -94,6 +98,26 @@ TEST(Image, a_file_that_promises_too_many_pixels_is_refused_before_they_are_read
   std::vector<std::byte> huge = png;
   for (const std::size_t at : {16u, 20u}) huge[at + 1] = std::byte{0x0f};  // 983,104 each way
   EXPECT_FALSE(decode_image(huge));
+}
+
+/// Each scan is a pass over all pixels.
+TEST(Image, a_progressive_jpeg_may_have_as_many_scans_as_programs_write) {
+  const auto file = [](int bands) {
+    std::vector<jpeg_scan_info> scans = {{3, {0, 1, 2, 0}, 0, 0, 0, 0}};
+    for (int component = 0; component < 3; ++component)
+      for (int band = 0; band < bands; ++band) {
+        const int first = 1 + band * 63 / bands, last = (band + 1) * 63 / bands;
+        scans.push_back({1, {component, 0, 0, 0}, first, last, 0, 0});
+      }
+    return as_jpeg(gradient(40, 24), scans);
+  };
+  const auto image = decode_image(file(7));
+  ASSERT_TRUE(image) << image.error().text();
+  expect_pixels(*image, gradient(40, 24), 14);
+  const auto refused = decode_image(file(63));
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code(), StatusCode::malformed_file);
+  EXPECT_NE(std::string(refused.error().text()).find("more than 64 scans"), std::string::npos);
 }
 
 TEST(Image, damaged_files_are_refused_or_read_in_part) {

@@ -11,6 +11,7 @@
 
 #include "tools/demo/demo_camera.h"
 #include "tools/demo/torn_actor.h"
+#include "tools/picture/wound_view.h"
 #include "tools/render/trace.h"
 
 namespace sunder::tools {
@@ -133,15 +134,14 @@ Status draw_shot(const Shot& shot, const DemoTear& tear, const ModelLooks& looks
   if (!status) return status;
   const Result<TornActor::Posture> posture = actor.posture();
   if (!posture) return posture.error();
-  std::vector<Vec3d> wound, outwards;
+  RenderScene scene = actor.scene(*posture, looks);
+  std::vector<Vec3d> wound;
   if (posture->wound) {
     wound = posture->wound->places(posture->open);
-    outwards = posture->wound->outwards(posture->closed);
-    frame = choose_wound_view(actor.character(), posture->open, wound, outwards, frame);
+    frame = see_wound(scene, frame);
   }
   const std::vector<Vec3d> places = places_of(actor.character(), posture->open);
   const Camera camera = aim(frame, places, wound, shot.closeness);
-  RenderScene scene = actor.scene(*posture, looks);
   add_floor(places, scene);
   const std::filesystem::path png = folder / (std::string(shot.name) + ".png");
   if (const Status written = write_png(png, trace(scene, camera, kStill)); !written) return written;

@@ -46,6 +46,9 @@ struct JpegErrors {
   char text[JMSG_LENGTH_MAX];
 };
 
+/// A progressive file of few bytes may pass over all its pixels thousands of times.
+constexpr int kMostScans = 64;
+
 [[noreturn]] void leave(j_common_ptr jpeg) {
   auto* const errors = reinterpret_cast<JpegErrors*>(jpeg->err);
   errors->manager.format_message(jpeg, errors->text);
@@ -53,6 +56,13 @@ struct JpegErrors {
 }
 
 void stay_silent(j_common_ptr /*jpeg*/) {}
+
+void count_scans(j_common_ptr jpeg) {
+  if (reinterpret_cast<j_decompress_ptr>(jpeg)->input_scan_number <= kMostScans) return;
+  auto* const errors = reinterpret_cast<JpegErrors*>(jpeg->err);
+  std::snprintf(errors->text, sizeof errors->text, "it has more than %d scans", kMostScans);
+  std::longjmp(errors->place, 1);
+}
 
 void read_rows(jpeg_decompress_struct& jpeg, Image& image) {
   const int channels = jpeg.out_color_components;
@@ -81,6 +91,9 @@ const char* decode_jpeg_into(std::span<const std::byte> file, std::uint64_t most
   errors.manager.output_message = stay_silent;
   if (setjmp(errors.place) != 0) return errors.text;
   jpeg_create_decompress(&jpeg);
+  jpeg_progress_mgr progress = {};
+  progress.progress_monitor = count_scans;
+  jpeg.progress = &progress;
   jpeg_mem_src(&jpeg, reinterpret_cast<const unsigned char*>(file.data()),
                static_cast<unsigned long>(file.size()));
   (void)jpeg_read_header(&jpeg, TRUE);
