@@ -7,7 +7,6 @@
 namespace sunder::tools {
 namespace {
 
-constexpr std::size_t kSamples = 4;  ///< Per pixel.
 constexpr int kBorder = 2;           ///< Pixels on each side over which light is averaged.
 /// Each of 4 x 4 patterns of directions counts the same.
 constexpr std::array<float, 5> kWeights = {0.5f, 1, 1, 1, 0.5f};
@@ -19,7 +18,7 @@ constexpr float kLampOnFloor = 0.6f;  ///< Share of the lamp in the light of the
 constexpr float kNowhere = 1e30f;
 
 /// Rotated by about 27 degrees, so that steep and flat edges are smooth alike.
-const std::array<Vec2d, kSamples> kPlaces = {
+const std::array<Vec2d, Tile::kSamples> kPlaces = {
     {{0.375, 0.125}, {0.875, 0.375}, {0.125, 0.625}, {0.625, 0.875}}};
 
 std::uint8_t as_byte(float linear) {
@@ -69,20 +68,18 @@ void Tile::see(Pixel& pixel, int x, int y, std::size_t sample) {
     layers_.push_back(layer);
     if (layer.surface.color.w() >= 0.99f) return;
   }
-  see_floor(pixel, x, y, along);
+  see_floor(pixel, x, y, along, sample);
 }
 
-void Tile::see_floor(Pixel& pixel, int x, int y, const Vec3f& along) {
+void Tile::see_floor(Pixel& pixel, int x, int y, const Vec3f& along, std::size_t sample) {
   if (scene_.floor_radius <= 0 || along.y() >= 0 || view_.eye.y() <= scene_.floor) return;
   const Vec3f place = view_.eye + (scene_.floor - view_.eye.y()) / along.y() * along;
   const Vec3f offset(place.x() - drawn_.middle.x(), 0, place.z() - drawn_.middle.z());
   const float fade = 1 - offset.norm() / scene_.floor_radius;
   if (fade <= 0) return;
   const Vec3f up = Vec3f::UnitY();
-  Layer layer;
-  layer.probe = probe_at(pixel, x, y, {place, up, {}, kNowhere, true}, place, up);
-  layer.floor = std::min(1.0f, 2 * fade);
-  layers_.push_back(layer);
+  pixel.floor_probe = probe_at(pixel, x, y, {place, up, {}, kNowhere, true}, place, up);
+  pixel.floor[sample] = std::min(1.0f, 2 * fade);
 }
 
 std::uint32_t Tile::probe_at(Pixel& pixel, int x, int y, const Probe& wanted, const Vec3f& start,
@@ -125,23 +122,24 @@ void Tile::shade(int x, int y, std::size_t sample, Vec3f& color, float& depth) {
   const Pixel& pixel = pixel_at(x, y);
   const double down = y + kPlaces[sample].y();
   const Vec3f along = view_.along(x + kPlaces[sample].x(), down);
-  Vec3f backdrop = (1 + scene_.backdrop_rise * view_.height(down)) * scene_.backdrop;
   color.setZero();
   depth = kNowhere;
   float left = 1;
   for (std::uint32_t i = pixel.layers[sample]; i < pixel.layers[sample + 1]; ++i) {
     const Layer& layer = layers_[i];
-    const Shading::Light& light = smooth_[layer.probe - pixel.first_probe];
-    if (layer.floor > 0) {
-      const float lit = kLampOnFloor * light.share_of_lamp() +
-                        (1 - kLampOnFloor) * light.share_of_sky().y();
-      backdrop *= 1 - layer.floor * kDarkest * (1 - lit);
-      continue;
-    }
     const float alpha = layer.surface.color.w();
     if (alpha >= 0.5f) depth = std::min(depth, layer.depth);
+    const Shading::Light& light = smooth_[layer.probe - pixel.first_probe];
     color += left * alpha * shading_.shown(layer.surface, light, along);
     left *= 1 - alpha;
+  }
+  if (!(left > 0)) return;
+  Vec3f backdrop = (1 + scene_.backdrop_rise * view_.height(down)) * scene_.backdrop;
+  if (pixel.floor[sample] > 0) {
+    const Shading::Light& light = smooth_[pixel.floor_probe - pixel.first_probe];
+    const float lit = kLampOnFloor * light.share_of_lamp() +
+                      (1 - kLampOnFloor) * light.share_of_sky().y();
+    backdrop *= 1 - pixel.floor[sample] * kDarkest * (1 - lit);
   }
   color += left * backdrop;
 }

@@ -26,7 +26,8 @@ struct TiledScene {
 /// the same surface. For one thread; the parts do not depend on each other.
 class Tile {
  public:
-  static constexpr int kSide = 80;  ///< Pixels.
+  static constexpr int kSide = 80;             ///< Pixels.
+  static constexpr std::size_t kSamples = 4;  ///< Per pixel.
 
   explicit Tile(const TiledScene& drawn)
       : scene_(drawn.scene), shading_(drawn.shading), view_(drawn.view), drawn_(drawn) {}
@@ -47,15 +48,16 @@ class Tile {
     Shading::Surface surface;
     std::uint32_t probe = 0;
     float depth = 0;
-    float floor = 0;  ///< How strong shadows on the floor are here; 0: it is a surface.
   };
   struct Pixel {
     std::uint32_t first_probe = 0, probe_count = 0;
-    std::array<std::uint32_t, 5> layers = {};  ///< Where those of each sample begin and end.
+    std::array<std::uint32_t, kSamples + 1> layers = {};  ///< Where those of each sample begin.
+    std::array<float, kSamples> floor = {};  ///< How strong shadows on the backdrop are.
+    std::uint32_t floor_probe = 0;           ///< Where there are some.
   };
   void find_surfaces();
   void see(Pixel& pixel, int x, int y, std::size_t sample);
-  void see_floor(Pixel& pixel, int x, int y, const Vec3f& along);
+  void see_floor(Pixel& pixel, int x, int y, const Vec3f& along, std::size_t sample);
   [[nodiscard]] std::uint32_t probe_at(Pixel& pixel, int x, int y, const Probe& wanted,
                                        const Vec3f& start, const Vec3f& flat);
   [[nodiscard]] Shading::Light mean_light(const Probe& probe, int x, int y) const;
