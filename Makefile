@@ -20,10 +20,9 @@ demo:
 	cmake --preset release
 	cmake --build --preset release --target sunder
 	build/release/tools/sunder demo -o demo
-	@echo; echo 'Look at:'; ls demo/*.png
 
 pictures:
-	scripts/setup demo test pictures
+	scripts/setup test pictures
 	cmake --preset release
 	cmake --build --preset release --target sunder soft_pictures write_page_example
 	scripts/pictures --compare build/pictures
@@ -35,7 +34,7 @@ unit:
 	ctest --preset release -L unit -j $(jobs)
 
 test:
-	scripts/setup demo test
+	scripts/setup test
 	cmake --preset release
 	cmake --build --preset release
 	ctest --preset release -j $(jobs)
@@ -61,7 +60,7 @@ bench:
 
 stress_seconds := $(or $(STRESS_SECONDS),3600)
 stress:
-	scripts/setup demo test
+	scripts/setup test
 	cmake --preset release
 	cmake --build --preset release
 	SUNDER_STRESS=1 ctest --preset release -j $(jobs)

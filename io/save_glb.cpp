@@ -2,7 +2,6 @@
 
 #include "io/gltf/source_document.h"
 #include "io/gltf_patch/write.h"
-#include "io/gltf_still/still_document.h"
 #include "io/gltf_write/new_document.h"
 #include "io/internal/copied_materials.h"
 #include "io/internal/mesh_nodes.h"
@@ -34,12 +33,6 @@ std::vector<std::uint32_t> nodes_of_meshes(const SourceDocument& source) {
   std::vector<std::uint32_t> nodes;
   for (const SourceDocument::MeshOrigin& origin : source.mesh_origins) nodes.push_back(origin.node);
   return nodes;
-}
-
-Result<std::uint32_t> save_still(const std::filesystem::path& file, const StillScene& scene,
-                                 const SourceDocument* materials) {
-  const SourceDocument none;
-  return gltf::write_still(file, scene, materials == nullptr ? none : *materials);
 }
 
 }  // namespace sunder

@@ -15,7 +15,7 @@
 #include "tools/messages/exit_code.h"
 #include "tools/messages/messages.h"
 #include "tools/model/model_reading.h"
-#include "tools/picture/render.h"
+#include "tools/render/camera.h"
 #include "tools/tear/refit.h"
 #include "tools/written_weights/certified_weights.h"
 

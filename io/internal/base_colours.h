@@ -16,9 +16,16 @@ struct BaseColour {
 
   Vec4f factor = Vec4f::Ones();  ///< Linear RGBA.
   std::uint32_t image = kNone;   ///< In BaseColours::images; multiplied by `factor`.
-  std::uint32_t uv_set = 0;      ///< Texture coordinates of the image.
+  std::uint32_t uv_set = 0;      ///< Texture coordinates of the images.
+  /// KHR_texture_transform: where in the images a place (u, v, 1) of the texture coordinates is.
+  Eigen::Matrix<float, 2, 3> image_from_uv = Eigen::Matrix<float, 2, 3>::Identity();
   Wrap wrap_u = Wrap::repeat, wrap_v = Wrap::repeat;
-  float cutoff = 0;  ///< Nothing is drawn where the image's alpha is below.
+  float cutoff = 0;             ///< Nothing is drawn where the image's alpha is below.
+  bool is_blended = false;      ///< Alpha mixes the surface with what is behind it.
+  bool is_unlit = false;        ///< KHR_materials_unlit.
+  Vec3f emission = Vec3f::Zero();        ///< Linear RGB, KHR_materials_emissive_strength included.
+  std::uint32_t emission_image = kNone;  ///< In BaseColours::images; multiplied by `emission`.
+  bool lacks_image = false;              ///< The file names one that is left out.
 };
 
 /// The base colours of a file's materials, with their images as in the file.
@@ -28,7 +35,7 @@ struct BaseColours {
     std::vector<std::byte> bytes;
   };
   std::vector<BaseColour> materials;  ///< Submesh::material is an index into them.
-  std::vector<Image> images;          ///< Each once.
+  std::vector<Image> images;          ///< Each once, however many entries of the file are it.
   std::uint32_t left_out = 0;  ///< Images that are missing, of another kind, or beyond the limit.
 };
 

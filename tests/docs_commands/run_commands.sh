@@ -4,15 +4,13 @@
 #
 #   run_commands.sh PAGE.md FOLDER_OF_SUNDER [FILE...]
 #
-# FILEs are copied into the folder first: what the reader has downloaded. Exit code 77 if one of them, the renderer or
-# Python is absent.
+# FILEs are copied into the folder first: what the reader has downloaded. Exit code 77 if one of them or Python is
+# absent.
 set -euo pipefail
 page=$(realpath "$1")
 PATH="$(realpath "$2"):$PATH"
 shift 2
-for program in f3d xvfb-run python3; do
-  command -v "$program" >/dev/null || { echo "$program is not installed" >&2; exit 77; }
-done
+command -v python3 >/dev/null || { echo "python3 is not installed" >&2; exit 77; }
 for file in "$@"; do [ -e "$file" ] || { echo "$file is absent" >&2; exit 77; }; done
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

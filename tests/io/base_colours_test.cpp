@@ -99,6 +99,57 @@ TEST_F(BaseColoursTest, have_each_image_once_and_none_from_outside_the_folder) {
   EXPECT_EQ(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()), kJpeg);
 }
 
+/// A file of few bytes may name one image thousands of times.
+TEST_F(BaseColoursTest, have_one_image_for_all_entries_that_are_the_same_bytes) {
+  Json& json = builder_.json;
+  json["images"] = Json::array();
+  json["textures"] = Json::array();
+  json["materials"] = Json::array();
+  const std::size_t view = builder_.add_view(bytes_of(kPng));
+  json["bufferViews"].push_back(json["bufferViews"][view]);
+  for (std::size_t i = 0; i < 300; ++i) {
+    if (i % 3 == 0)
+      json["images"].push_back({{"uri", "beside.jpg"}});
+    else
+      json["images"].push_back({{"bufferView", i % 3 == 1 ? view : json["bufferViews"].size() - 1},
+                                {"mimeType", "image/png"}});
+    json["textures"].push_back({{"source", i}});
+    json["materials"].push_back({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", i}}}}}});
+  }
+  const BaseColours colours = read(kPng.size() + kJpeg.size());
+  ASSERT_EQ(colours.materials.size(), 300u);
+  EXPECT_EQ(colours.images.size(), 2u);
+  EXPECT_EQ(colours.left_out, 0u);
+  for (const BaseColour& colour : colours.materials) EXPECT_LT(colour.image, 2u);
+}
+
+TEST_F(BaseColoursTest, have_alpha_emission_and_the_place_in_the_image) {
+  Json& materials = builder_.json["materials"];
+  materials[0]["alphaMode"] = "BLEND";
+  Json& texture = materials[0]["pbrMetallicRoughness"]["baseColorTexture"];
+  texture["extensions"]["KHR_texture_transform"] = {
+      {"offset", {0.25, 0.5}}, {"rotation", 1.5707963267948966}, {"scale", {2, 4}}, {"texCoord", 3}};
+  materials[1]["emissiveFactor"] = {1, 0.5, 0};
+  materials[1]["emissiveTexture"] = {{"index", 0}};
+  materials[1]["extensions"] = {{"KHR_materials_unlit", Json::object()},
+                                {"KHR_materials_emissive_strength", {{"emissiveStrength", 2}}}};
+  materials[5] = {{"emissiveFactor", {1, 1, 1}}, {"emissiveTexture", {{"index", 4}}}};
+  const BaseColours colours = read();
+  const BaseColour& first = colours.materials[0];
+  EXPECT_TRUE(first.is_blended);
+  EXPECT_EQ(first.uv_set, 3u);
+  // Scaled to (2, 4), turned to (4, -2), moved.
+  EXPECT_LT((first.image_from_uv * Vec3f(1, 1, 1) - Vec2f(4.25f, -1.5f)).norm(), 1e-5f);
+  const BaseColour& second = colours.materials[1];
+  EXPECT_TRUE(second.is_unlit);
+  EXPECT_FALSE(second.is_blended);
+  EXPECT_EQ(second.emission, Vec3f(2, 1, 0));
+  EXPECT_EQ(second.emission_image, first.image);
+  EXPECT_FALSE(second.lacks_image);
+  EXPECT_EQ(colours.materials[5].emission, Vec3f(Vec3f::Zero())) << "its texture is no image";
+  EXPECT_TRUE(colours.materials[5].lacks_image);
+}
+
 TEST_F(BaseColoursTest, leave_out_images_beyond_the_limit) {
   EXPECT_EQ(read(kPng.size()).images.size(), 1u);
   EXPECT_EQ(read(0).images.size(), 0u);

@@ -11,7 +11,9 @@ class DemoCommand : public CactusSuite {};
 TEST_F(DemoCommand, demo_writes_everything_but_pictures_if_none_are_wanted) {
   const CommandResult result = run_sunder({"demo", "-o", path("demo"), "--no-pictures"});
   EXPECT_EQ(result.exit_code, 0);
-  EXPECT_THAT(result.err, IsEmpty());
+  for (const char* const name : {"cactus.glb", "torn.glb", "report.json", "ops.json"})
+    EXPECT_THAT(result.err, HasSubstr("wrote " + path("demo/" + std::string(name)) + ", "));
+  EXPECT_THAT(result.err, testing::Not(HasSubstr(".png")));
   EXPECT_TRUE(exists("demo/torn.glb"));
   EXPECT_TRUE(exists("demo/report.json"));
   EXPECT_FALSE(exists("demo/torn.png"));

@@ -1,7 +1,5 @@
 // Materials in pictures: a row of squares, each with a material of another kind.
 
-#include <cstdlib>
-
 #include "support/models/gltf_builder.h"
 #include "tools/command_fixture.h"
 #include "tools/picture_pixels.h"
@@ -10,19 +8,14 @@ namespace sunder::command_test {
 namespace {
 
 using test::GltfBuilder;
+using testing::StartsWith;
 using test::Pixels;
 using OrderedJson = nlohmann::ordered_json;
 
 using Texel = std::array<std::uint8_t, 4>;
 constexpr Texel kGreen = {0, 200, 0, 255}, kClear = {0, 0, 200, 0};
 
-class PictureMaterials : public CommandSuite {
- protected:
-  void SetUp() override {
-    if (std::system("command -v f3d xvfb-run >/dev/null 2>&1") != 0)
-      GTEST_SKIP() << "needs f3d and xvfb-run";
-  }
-};
+class PictureMaterials : public CommandSuite {};
 
 /// Adds a unit square with its lower left corner at (x, 0, z).
 void add_square(GltfBuilder& builder, float x, float z, const OrderedJson& material,
@@ -46,15 +39,21 @@ void add_square(GltfBuilder& builder, float x, float z, const OrderedJson& mater
   builder.json["scenes"][0]["nodes"].push_back(builder.json["nodes"].size() - 1);
 }
 
-/// A texture of 2 x 2 equal texels. @return its index.
-std::size_t add_texture(GltfBuilder& builder, const Texel& texel) {
-  const std::vector<std::byte> png = test::make_png(2, 2, {texel, texel, texel, texel});
+/// A texture of 2 x 2 texels. @return its index.
+std::size_t add_texture(GltfBuilder& builder, const std::array<Texel, 4>& texels) {
+  const std::vector<std::byte> png =
+      test::make_png(2, 2, {texels.begin(), texels.end()});
   std::vector<std::uint8_t> bytes;
   for (const std::byte byte : png) bytes.push_back(std::to_integer<std::uint8_t>(byte));
   builder.json["images"].push_back(
       {{"bufferView", builder.add_view(bytes)}, {"mimeType", "image/png"}});
   builder.json["textures"].push_back({{"source", builder.json["images"].size() - 1}});
   return builder.json["textures"].size() - 1;
+}
+
+/// All of one colour.
+std::size_t add_texture(GltfBuilder& builder, const Texel& texel) {
+  return add_texture(builder, {texel, texel, texel, texel});
 }
 
 OrderedJson plain(const std::array<double, 4>& color) {
@@ -89,7 +88,7 @@ TEST_F(PictureMaterials, colors_textures_vertex_colors_and_alpha_are_drawn) {
   const CommandResult result =
       run_sunder({"picture", path("squares.glb"), "-o", path("squares.png"), "--size", "600x200"});
   ASSERT_LE(result.exit_code, 1) << result.err;
-  EXPECT_THAT(result.err, IsEmpty());
+  EXPECT_THAT(result.err, StartsWith("sunder: wrote " + path("squares.png") + ", "));
   const auto pixels = test::read_png(path("squares.png"));
   ASSERT_TRUE(pixels);
   const auto square = [&](double i) {
@@ -108,6 +107,35 @@ TEST_F(PictureMaterials, colors_textures_vertex_colors_and_alpha_are_drawn) {
   expect(3, {0, 190, 0}, {45, 210, 45});  // Unlit: the colour of the texture.
   expect(4, {80, 0, 80}, {230, 90, 230});
   expect(5, {200, 0, 0}, {255, 90, 90});  // The clear square before it is cut away.
+}
+
+TEST_F(PictureMaterials, a_texture_transform_moves_and_turns_the_image) {
+  GltfBuilder builder;
+  builder.json["scene"] = 0;
+  builder.json["extensionsUsed"] =
+      OrderedJson::array({"KHR_texture_transform", "KHR_materials_unlit"});
+  constexpr Texel kRed = {200, 0, 0, 255}, kBlue = {0, 0, 200, 255}, kGrey = {90, 90, 90, 255};
+  const std::size_t texture = add_texture(builder, {kRed, kGreen, kBlue, kGrey});
+  OrderedJson moved = textured(texture);
+  moved["extensions"]["KHR_materials_unlit"] = OrderedJson::object();
+  OrderedJson& reference = moved["pbrMetallicRoughness"]["baseColorTexture"];
+  reference["extensions"]["KHR_texture_transform"] = {{"offset", {0.75, 0.25}}, {"scale", {0, 0}}};
+  add_square(builder, 0, 0, moved);
+  // A quarter turn: (u, v) -> (v, -u), which repeats.
+  reference["extensions"]["KHR_texture_transform"] = {{"rotation", 1.5707963267948966}};
+  add_square(builder, 1, 0, moved);
+  const std::vector<std::byte> glb = builder.glb();
+  write("moved.glb", {reinterpret_cast<const char*>(glb.data()), glb.size()});
+  ASSERT_EQ(run_sunder({"picture", path("moved.glb"), "-o", path("moved.png"), "--size", "200x100"})
+                .exit_code,
+            0);
+  const auto pixels = test::read_png(path("moved.png"));
+  ASSERT_TRUE(pixels);
+  EXPECT_TRUE(test::is_near(pixels->at(30, 50), {0, 200, 0}, 8)) << "all of the upper right texel";
+  // The square's lower left corner has (0, 1) -> (1, 0): between texels; a quarter inside of it is
+  // (0.25, 0.75) -> (0.75, -0.25): the lower right one.
+  EXPECT_TRUE(test::is_near(pixels->at(122, 72), {90, 90, 90}, 8));
+  EXPECT_TRUE(test::is_near(pixels->at(167, 72), {0, 200, 0}, 8));
 }
 
 TEST_F(PictureMaterials, other_formats_keep_their_textures) {

@@ -30,7 +30,9 @@ Picture gradient(int width, int height, int offset = 0) {
   return picture;
 }
 
-std::vector<std::byte> as_jpeg(const Picture& picture) {
+/// @param scans  of a progressive file; empty: one for all.
+std::vector<std::byte> as_jpeg(const Picture& picture,
+                               const std::vector<jpeg_scan_info>& scans = {}) {
   jpeg_compress_struct jpeg = {};
   jpeg_error_mgr errors = {};
   jpeg.err = jpeg_std_error(&errors);
@@ -44,6 +46,8 @@ std::vector<std::byte> as_jpeg(const Picture& picture) {
   jpeg.in_color_space = JCS_RGB;
   jpeg_set_defaults(&jpeg);
   jpeg_set_quality(&jpeg, 95, TRUE);
+  jpeg.scan_info = scans.empty() ? nullptr : scans.data();
+  jpeg.num_scans = static_cast<int>(scans.size());
   jpeg_start_compress(&jpeg, TRUE);
   for (int y = 0; y < picture.height; ++y) {
     auto row = picture.colors;
@@ -80,6 +84,40 @@ TEST(Image, a_jpeg_is_read) {
   const auto image = decode_image(as_jpeg(picture));
   ASSERT_TRUE(image) << image.error().text();
   expect_pixels(*image, picture, 14);
+}
+
+TEST(Image, a_file_that_promises_too_many_pixels_is_refused_before_they_are_read) {
+  const test::TemporaryFolder folder;
+  ASSERT_TRUE(write_png(folder.path() / "a.png", gradient(64, 64)));
+  const std::vector<std::byte> png = test::read_bytes(folder.path() / "a.png");
+  const std::vector<std::byte> jpeg = as_jpeg(gradient(64, 64));
+  for (const std::vector<std::byte>& file : {png, jpeg}) {
+    EXPECT_TRUE(decode_image(file, 64 * 64));
+    EXPECT_EQ(decode_image(file, 64 * 64 - 1).error().code(), StatusCode::limit_exceeded);
+  }
+  std::vector<std::byte> huge = png;
+  for (const std::size_t at : {16u, 20u}) huge[at + 1] = std::byte{0x0f};  // 983,104 each way
+  EXPECT_FALSE(decode_image(huge));
+}
+
+/// Each scan is a pass over all pixels.
+TEST(Image, a_progressive_jpeg_may_have_as_many_scans_as_programs_write) {
+  const auto file = [](int bands) {
+    std::vector<jpeg_scan_info> scans = {{3, {0, 1, 2, 0}, 0, 0, 0, 0}};
+    for (int component = 0; component < 3; ++component)
+      for (int band = 0; band < bands; ++band) {
+        const int first = 1 + band * 63 / bands, last = (band + 1) * 63 / bands;
+        scans.push_back({1, {component, 0, 0, 0}, first, last, 0, 0});
+      }
+    return as_jpeg(gradient(40, 24), scans);
+  };
+  const auto image = decode_image(file(7));
+  ASSERT_TRUE(image) << image.error().text();
+  expect_pixels(*image, gradient(40, 24), 14);
+  const auto refused = decode_image(file(63));
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code(), StatusCode::malformed_file);
+  EXPECT_NE(std::string(refused.error().text()).find("more than 64 scans"), std::string::npos);
 }
 
 TEST(Image, damaged_files_are_refused_or_read_in_part) {
@@ -134,6 +172,20 @@ TEST(Palette, few_colours_are_kept) {
       EXPECT_NEAR(palette.colors()[palette.at(color)][c], color[c], 3);
 }
 
+/// Where a ray meets the plane of a triangle, and the least share of a corner there.
+struct Meeting {
+  float distance = 0, inside = -1;
+};
+Meeting meet(const TriangleTree::Corners& triangle, const Vec3f& from, const Vec3f& along) {
+  const Vec3d a = triangle[0].cast<double>(), ab = triangle[1].cast<double>() - a,
+              ac = triangle[2].cast<double>() - a;
+  Eigen::Matrix3d system;
+  system << ab, ac, -along.cast<double>();
+  const Vec3d found = system.fullPivLu().solve(from.cast<double>() - a);
+  return {static_cast<float>(found[2]),
+          static_cast<float>(std::min({found[0], found[1], 1 - found[0] - found[1]}))};
+}
+
 TEST(TriangleTree, finds_what_a_search_of_all_triangles_finds) {
   for (std::uint32_t seed = 1; seed <= 20; ++seed) {
     test::Random random(seed);
@@ -151,17 +203,45 @@ TEST(TriangleTree, finds_what_a_search_of_all_triangles_finds) {
     for (int ray = 0; ray < 60; ++ray) {
       const Vec3f from = 2 * place(), along = place() - from;
       float nearest = 5;
+      bool is_near_an_edge = false;
       for (const TriangleTree::Corners& triangle : triangles) {
-        const TriangleTree::Hit alone =
-            TriangleTree(std::span(&triangle, 1)).first_hit(from, along, 5);
-        if (alone.triangle != kNone) nearest = std::min(nearest, alone.distance);
+        const Meeting met = meet(triangle, from, along);
+        is_near_an_edge = is_near_an_edge || std::abs(met.inside) < 1e-4f;
+        if (met.inside > 0 && met.distance > 0) nearest = std::min(nearest, met.distance);
       }
+      if (is_near_an_edge) continue;
       const TriangleTree::Hit hit = tree.first_hit(from, along, 5);
       EXPECT_EQ(hit.triangle == kNone, nearest == 5);
-      EXPECT_EQ(hit.distance, nearest);
+      EXPECT_NEAR(hit.distance, nearest, 1e-4f * nearest);
       EXPECT_EQ(tree.is_blocked(from, along, 5), nearest < 5);
+      if (hit.triangle == kNone) continue;
+      const float beyond = 1.001f * hit.distance;
+      EXPECT_GT(tree.first_hit(from, along, 5, beyond).distance, hit.distance);
     }
   }
+}
+
+TEST(TriangleTree, rays_pass_holes_and_nothing_else) {
+  const std::vector<TriangleTree::Corners> triangles = {
+      {Vec3f(-1, -1, 2), Vec3f(3, -1, 2), Vec3f(-1, 3, 2)},
+      {Vec3f(-1, -1, 1), Vec3f(3, -1, 1), Vec3f(-1, 3, 1)},
+      {Vec3f(-1, -1, 3), Vec3f(3, -1, 3), Vec3f(-1, 3, 3)}};
+  std::vector<Index> asked;
+  const TriangleTree tree(triangles, {{false, true, true}, [&](Index triangle, const Vec3f& shares,
+                                                               TriangleTree::Ray ray) {
+                                        EXPECT_NEAR(shares[1], 0.25f, 1e-5f);
+                                        EXPECT_NEAR(shares[2], 0.25f, 1e-5f);
+                                        asked.push_back(triangle);
+                                        return triangle == 1 && ray == TriangleTree::Ray::sight;
+                                      }});
+  const Vec3f origin = Vec3f::Zero(), along = Vec3f::UnitZ();
+  EXPECT_EQ(tree.first_hit(origin, along).triangle, 0u);
+  EXPECT_NEAR(tree.first_hit(origin, along).distance, 2, 1e-5);
+  EXPECT_TRUE(tree.is_blocked(origin, along, 1.5f));
+  EXPECT_FALSE(tree.is_blocked(origin, along, 0.5f));
+  EXPECT_NE(std::find(asked.begin(), asked.end(), Index{1}), asked.end());
+  EXPECT_EQ(TriangleTree(std::span<const TriangleTree::Corners>()).first_hit(origin, along).triangle,
+            kNone);
 }
 
 /// A square of 2 m at a height, facing up.
@@ -194,6 +274,7 @@ TEST(Trace, textures_shadows_and_transparent_surfaces) {
   scene.materials[0].image = &image;
   scene.materials[0].wrap = {RenderMaterial::Wrap::clamp, RenderMaterial::Wrap::clamp};
   scene.materials[2].factor = Vec4f(1, 1, 1, 0);
+  scene.materials[2].alpha = RenderMaterial::Alpha::blended;
   add_square(0, 1, 0, scene);
   const Camera camera{{0, 6, 0.01}, {0, 0, 0}, {0, 0, -1}, 30};
   const PictureSize size{80, 60};
@@ -210,7 +291,80 @@ TEST(Trace, textures_shadows_and_transparent_surfaces) {
   add_square(0.3f, 0.25f, 1, shaded);
   const Picture below = trace(shaded, camera, size);
   EXPECT_LT(brightness(below, 47, 32), brightness(plain, 47, 32) - 20);  // beside the small square
-  EXPECT_EQ(trace(shaded, camera, size).colors, below.colors);
+  for (const unsigned threads : {1u, 2u, 5u})
+    EXPECT_EQ(trace(shaded, camera, size, threads).colors, below.colors);
+}
+
+TEST(Trace, alpha_counts_only_where_the_material_says_so) {
+  const Image clear{1, 1, {255, 255, 255, 60}};
+  RenderScene scene;
+  scene.materials.resize(2);
+  scene.materials[0].factor = Vec4f(1, 0, 0, 1);
+  scene.materials[1].factor = Vec4f(0, 0, 1, 1);
+  scene.materials[1].image = &clear;
+  add_square(0, 1, 0, scene);
+  add_square(0.5f, 1, 1, scene);
+  const Camera camera{{0, 6, 0.01}, {0, 0, 0}, {0, 0, -1}, 30};
+  const auto middle = [&](RenderMaterial::Alpha alpha) {
+    scene.materials[1].alpha = alpha;
+    return trace(scene, camera, {80, 60}).colors[30 * 80 + 40];
+  };
+  const auto ignored = middle(RenderMaterial::Alpha::ignored),
+             cut = middle(RenderMaterial::Alpha::cut),
+             blended = middle(RenderMaterial::Alpha::blended);
+  EXPECT_GT(ignored[2], 150);
+  EXPECT_LT(ignored[0], 80);
+  EXPECT_GT(cut[0], 200) << "neither seen nor in the way of light";
+  EXPECT_LT(cut[2], 80);
+  EXPECT_GT(blended[0], 100);
+  EXPECT_GT(blended[2], 80);
+}
+
+TEST(Trace, unlit_colours_and_emission_are_shown_without_light) {
+  RenderScene scene;
+  scene.materials.resize(2);
+  scene.materials[0].factor = Vec4f(0.5f, 0.25f, 1, 1);
+  scene.materials[0].is_unlit = true;
+  scene.materials[1].factor = Vec4f(0, 0, 0, 1);
+  scene.materials[1].emission = Vec3f(0, 0.4f, 0);
+  const Camera camera{{0, 6, 0.01}, {0, 0, 0}, {0, 0, -1}, 30};
+  add_square(0, 1, 0, scene);
+  EXPECT_EQ(trace(scene, camera, {80, 60}).colors[30 * 80 + 40],
+            (Picture::Color{188, 137, 255}));
+  scene.triangles.clear();
+  add_square(0, 1, 1, scene);
+  const auto glowing = trace(scene, camera, {80, 60}).colors[30 * 80 + 40];
+  EXPECT_GT(glowing[1], 160);
+  EXPECT_LT(glowing[0], 80);
+}
+
+/// Marks of one colour each, whose pixels are counted.
+TEST(Trace, marks_lie_before_and_behind_surfaces_and_on_top) {
+  RenderScene scene;
+  scene.materials.resize(1);
+  scene.materials[0].factor = Vec4f(0.5f, 0.5f, 0.5f, 1);
+  scene.materials[0].is_unlit = true;
+  add_square(0, 1, 0, scene);
+  const Camera camera{{0, 6, 0.01}, {0, 0, 0}, {0, 0, -1}, 30};
+  const auto mark = [](double left, std::vector<double> depths, const Vec4f& color) {
+    return RenderMark{{{left, 26}, {left + 8, 26}, {left + 8, 34}, {left, 34}},
+                      std::move(depths),
+                      color};
+  };
+  const Vec4f red(1, 0, 0, 1), green(0, 1, 0, 1), blue(0, 0, 1, 0.5f);
+  scene.marks = {mark(24, {5, 5, 5, 5}, red), mark(36, {7, 7, 7, 7}, red), mark(48, {}, green),
+                 mark(50, {}, blue), mark(52, {5, 5, 5, 5}, red),
+                 mark(8, {5, 7, 7, 5}, red)};
+  const Picture picture = trace(scene, camera, {80, 60});
+  const auto at = [&](int x) { return picture.colors[static_cast<std::size_t>(30 * 80 + x)]; };
+  EXPECT_EQ(at(28), (Picture::Color{255, 0, 0})) << "before the surface";
+  EXPECT_EQ(at(40), (Picture::Color{188, 188, 188})) << "behind it";
+  EXPECT_EQ(at(49), (Picture::Color{0, 255, 0})) << "on top";
+  EXPECT_EQ(at(51), (Picture::Color{0, 188, 188})) << "half of it over another one";
+  EXPECT_EQ(at(54), (Picture::Color{0, 188, 188})) << "over one in the scene, which came later";
+  EXPECT_EQ(at(59), (Picture::Color{255, 0, 0}));
+  EXPECT_EQ(at(31), (Picture::Color{255, 0, 0}));
+  EXPECT_EQ(at(32), (Picture::Color{188, 188, 188}));
 }
 
 }  // namespace

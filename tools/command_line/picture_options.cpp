@@ -105,8 +105,7 @@ CLI::App* add_picture(CLI::App& app, PictureRequest& request) {
   add_model_reading(*verb, request.reading);
   add_budget_of_operations(*verb, request.budget);
   verb->footer(
-      "Needs f3d and Xvfb. Exit code 1 if something asked for could not be drawn; stderr says "
-      "what.\n\n"
+      "Exit code 1 if something asked for could not be drawn; stderr says what.\n\n"
       "Example: sunder picture fox.glb -o fox.png --pose Walk@0.4 --from left --ops ops.json");
   return verb;
 }

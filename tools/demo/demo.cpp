@@ -13,6 +13,7 @@
 #include "tools/messages/overwriting.h"
 #include "tools/messages/progress_bar.h"
 #include "tools/messages/text_file.h"
+#include "tools/messages/written_file.h"
 #include "tools/model/model_json.h"
 #include "tools/model/posed_model.h"
 #include "tools/tear/report.h"
@@ -124,6 +125,12 @@ ExitCode write_results(const DemoRequest& request, const std::string& place, con
   return ExitCode::ok;
 }
 
+ExitCode say_written(const std::filesystem::path& folder, const std::vector<std::string>& names) {
+  for (const std::string& name : names)
+    Messages(Verbosity::normal).say(written(folder / name));
+  return ExitCode::ok;
+}
+
 }  // namespace
 
 ExitCode run_demo(const DemoRequest& request) {
@@ -137,7 +144,7 @@ ExitCode run_demo(const DemoRequest& request) {
     }
   }
   Budget budget(request.budget, place);
-  ProgressBar progress(2 + kDemoPictures);
+  ProgressBar progress(2 + kDemoSteps);
   progress.begin_step(0, "reading");
   const Result<DemoModel> model = get_model(request);
   if (!model) return complain(place, model.error(), ExitCode::unreadable_input);
@@ -161,14 +168,19 @@ ExitCode run_demo(const DemoRequest& request) {
     return ExitCode::findings;
   }
 
-  if (request.no_pictures) return ExitCode::ok;
+  std::vector<std::string> names = {"torn.glb", "report.json", "ops.json"};
+  if (model->is_embedded) names.insert(names.begin(), "cactus.glb");
+  if (request.no_pictures) return say_written(request.folder, names);
   const Result<ModelLooks> looks = ModelLooks::create(model->loaded.source.get());
   if (!looks) return complain(place, looks.error(), ExitCode::internal_error);
+  if (const std::string missing = looks->missing_textures(); !missing.empty())
+    Messages(Verbosity::normal).warn(place + ": " + missing);
   if (const Status status = draw_demo(demo->tear, *looks, request.folder, 2, progress); !status) {
     (void)complain(request.folder.string() + ": pictures", status, ExitCode::findings);
     return ExitCode::findings;
   }
-  return ExitCode::ok;
+  for (const char* const name : kDemoPictures) names.push_back(std::string(name) + ".png");
+  return say_written(request.folder, names);
 }
 
 }  // namespace sunder::tools

@@ -10,16 +10,6 @@
 
 namespace sunder::tools {
 
-/// The view from which most of a wound is visible: the one before if it is good enough, else the
-/// nearest better one around the model.
-/// @param wound     places on the surface, with the directions of the surface there.
-/// @param previous  the view of the picture before.
-[[nodiscard]] ViewFrame choose_wound_view(const Character& character,
-                                          const std::vector<DeformedMesh>& posed,
-                                          const std::vector<Vec3d>& wound,
-                                          const std::vector<Vec3d>& outwards,
-                                          const ViewFrame& previous);
-
 /// The places of all vertices that triangles use, thinned out.
 [[nodiscard]] std::vector<Vec3d> places_of(const Character& character,
                                            const std::vector<DeformedMesh>& posed);

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "tools/demo/demo_camera.h"
 #include "tools/demo/torn_actor.h"
+#include "tools/picture/wound_view.h"
 #include "tools/render/trace.h"
 
 namespace sunder::tools {
@@ -83,6 +85,8 @@ class Motion {
   bool runs_on_ = false;
 };
 
+static_assert(kDemoSteps == kFrames + std::size(kShots));
+
 /// Tears as far as a picture of the motion shows.
 Status tear_in_motion(int frame, TornActor& actor, std::size_t& next) {
   const int step = frame - kFramesBefore + 1;
@@ -96,7 +100,7 @@ Status tear_in_motion(int frame, TornActor& actor, std::size_t& next) {
 }
 
 Status draw_motion(const DemoTear& tear, const ModelLooks& looks, const std::filesystem::path& png,
-                   TornActor& actor) {
+                   std::size_t first_step, ProgressBar& progress, TornActor& actor) {
   const Result<Motion> motion = Motion::create(*tear.source);
   if (!motion) return motion.error();
   std::vector<Vec3d> places, wound;
@@ -109,6 +113,7 @@ Status draw_motion(const DemoTear& tear, const ModelLooks& looks, const std::fil
   std::vector<Picture> pictures;
   std::size_t next = 0;
   for (int frame = 0; frame < kFrames; ++frame) {
+    progress.begin_step(first_step++, "drawing motion");
     if (const Status status = actor.play(motion->pose(frame), kFrame); !status) return status;
     if (const Status status = tear_in_motion(frame, actor, next); !status) return status;
     if (const Status status = actor.play(motion->pose(frame), 0); !status) return status;
@@ -129,15 +134,14 @@ Status draw_shot(const Shot& shot, const DemoTear& tear, const ModelLooks& looks
   if (!status) return status;
   const Result<TornActor::Posture> posture = actor.posture();
   if (!posture) return posture.error();
-  std::vector<Vec3d> wound, outwards;
+  RenderScene scene = actor.scene(*posture, looks);
+  std::vector<Vec3d> wound;
   if (posture->wound) {
     wound = posture->wound->places(posture->open);
-    outwards = posture->wound->outwards(posture->closed);
-    frame = choose_wound_view(actor.character(), posture->open, wound, outwards, frame);
+    frame = see_wound(scene, frame);
   }
   const std::vector<Vec3d> places = places_of(actor.character(), posture->open);
   const Camera camera = aim(frame, places, wound, shot.closeness);
-  RenderScene scene = actor.scene(*posture, looks);
   add_floor(places, scene);
   const std::filesystem::path png = folder / (std::string(shot.name) + ".png");
   if (const Status written = write_png(png, trace(scene, camera, kStill)); !written) return written;
@@ -162,9 +166,11 @@ Status draw_demo(const DemoTear& tear, const ModelLooks& looks, const std::files
                  std::size_t first_step, ProgressBar& progress) {
   Result<TornActor> actor = TornActor::create(tear.source, tear.operation);
   if (!actor) return actor.error();
-  progress.begin_step(first_step++, "drawing motion");
-  if (const Status status = draw_motion(tear, looks, folder / "motion.png", *actor); !status)
+  if (const Status status =
+          draw_motion(tear, looks, folder / "motion.png", first_step, progress, *actor);
+      !status)
     return status;
+  first_step += kFrames;
   ViewFrame frame = tear.frame;
   for (const Shot& shot : kShots) {
     progress.begin_step(first_step++, std::string("drawing ") + shot.name);

@@ -14,7 +14,9 @@
 namespace sunder::tools {
 
 constexpr double kTearFraction = 0.40;    ///< Time of the tear, as a fraction of the first clip.
-constexpr std::size_t kDemoPictures = 6;  ///< Number of pictures.
+constexpr std::size_t kDemoSteps = 36;    ///< Of draw_demo(), for a progress bar.
+constexpr const char* kDemoPictures[] = {"motion",  "before",  "torn",
+                                         "wound",   "later_1", "later_2"};
 
 /// The pose of a character at a fraction of its first clip; the rest pose if it has none.
 [[nodiscard]] PoseSpec pose_at(const Character& character, double fraction);
@@ -29,8 +31,8 @@ struct DemoTear {
 
 /// Draws the moment before the tear, the tear, the wound from near, and two later moments of the
 /// clip; and motion.png, an animated PNG of the character that is torn while it moves. Lips open
-/// like those of soft tissue. Takes half a minute on two cores.
-/// @param progress  begins one step per picture, from `first_step` on.
+/// like those of soft tissue. Takes about twelve seconds of processor time.
+/// @param progress  begins kDemoSteps steps, from `first_step` on.
 [[nodiscard]] Status draw_demo(const DemoTear& tear, const ModelLooks& looks,
                                const std::filesystem::path& folder, std::size_t first_step,
                                ProgressBar& progress);

@@ -11,6 +11,8 @@
 #include "tools/messages/output_file.h"
 #include "tools/messages/overwriting.h"
 #include "tools/messages/printed.h"
+#include "tools/messages/progress_bar.h"
+#include "tools/messages/written_file.h"
 #include "tools/model/bone_extents.h"
 #include "tools/model/history.h"
 #include "tools/model/joint_values.h"
@@ -23,14 +25,17 @@
 #include "tools/picture/bone_marks.h"
 #include "tools/picture/guide_marks.h"
 #include "tools/picture/labels.h"
-#include "tools/picture/lights.h"
+#include "tools/picture/model_looks.h"
 #include "tools/picture/operation_marks.h"
+#include "tools/render/png_file.h"
+#include "tools/render/trace.h"
 #include "tools/verbs.h"
 
 namespace sunder::tools {
 namespace {
 
 const Messages kMessages(Verbosity::normal);
+const Vec3f kBackdrop(0.847f, 0.867f, 0.888f);  ///< Linear.
 
 void say(const std::string& text) { kMessages.say(text); }
 void warn(const std::string& text) { kMessages.warn(text); }
@@ -97,24 +102,14 @@ std::string advice_on_limb(const Character& character, const Subject& subject,
   return name_advice(name, "bones", names);
 }
 
-StillScene make_scene(const Character& character, const Subject& subject, const ViewFrame& frame) {
-  StillScene scene;
-  for (std::size_t m = 0; m < subject.meshes.size(); ++m) {
-    Mesh mesh = character.meshes[m];
-    mesh.positions = subject.meshes[m].positions;
-    mesh.normals = subject.meshes[m].normals;
-    scene.surfaces.push_back(std::move(mesh));
-  }
-  scene.lights = lights_of(frame);
+RenderScene make_scene(const Character& character, const Subject& subject,
+                       const ModelLooks& looks) {
+  RenderScene scene = looks.begin_scene();
+  for (std::size_t m = 0; m < subject.meshes.size(); ++m)
+    looks.add_mesh(character.meshes[m], subject.meshes[m], {}, scene);
+  scene.backdrop = kBackdrop;
+  scene.backdrop_rise = 0;
   return scene;
-}
-
-double nearest_depth(const Subject& subject, const Viewport& viewport) {
-  double nearest = 1e300;
-  for (const DeformedMesh& mesh : subject.meshes)
-    for (const Vec3f& position : mesh.positions)
-      nearest = std::min(nearest, viewport.depth(position.cast<double>()));
-  return nearest;
 }
 
 /// Draws everything that was asked for in addition to the model. @return whether all of it is seen.
@@ -185,7 +180,8 @@ Result<PoseArgument> choose_pose(const PictureRequest& request, const Character&
 }
 
 ExitCode draw_scene(const PictureRequest& request, const LoadedCharacter& loaded,
-                    const Subject& subject, const std::vector<NumberedOperation>& operations) {
+                    const Subject& subject, const std::vector<NumberedOperation>& operations,
+                    ProgressBar& progress, Budget& budget) {
   const Character& character = *loaded.character;
   std::uint32_t limb = kNone;
   if (request.bone) {
@@ -204,25 +200,20 @@ ExitCode draw_scene(const PictureRequest& request, const LoadedCharacter& loaded
   const Viewport viewport(frame, request.size, framed);
   Marks marks(viewport);
   const bool is_complete = draw_marks(request, character, subject, operations, marks);
-  StillScene scene = make_scene(character, subject, frame);
-  scene.marks = marks.finish(nearest_depth(subject, viewport));
-
-  const DrawingFolder folder;
-  if (!folder.exists()) {
-    print_error("sunder: no picture: cannot create a temporary folder");
-    return ExitCode::unreadable_input;
-  }
-  const Result<std::uint32_t> without_texture =
-      save_still(folder.scene(), scene, loaded.source.get());
-  if (!without_texture)
-    return complain(request.output.string(), without_texture.error(), ExitCode::internal_error);
-  if (*without_texture > 0)
-    warn(request.model.string() + ": " + std::to_string(*without_texture) +
-         " materials are drawn without a texture: its image is missing, or neither PNG nor JPEG");
-  if (const Status status = render(folder, viewport.camera(), request.size, request.output);
-      !status)
+  progress.begin_step(1, "reading images");
+  const Result<ModelLooks> looks = ModelLooks::create(loaded.source.get());
+  if (!looks) return complain(request.model.string(), looks.error(), ExitCode::internal_error);
+  const std::string missing = looks->missing_textures();
+  if (!missing.empty()) warn(request.model.string() + ": " + missing);
+  progress.begin_step(2, "drawing");
+  RenderScene scene = make_scene(character, subject, *looks);
+  scene.marks = marks.take();
+  const Picture picture = trace(scene, viewport.camera(), request.size);
+  budget.end();
+  if (const Status status = write_png(request.output, picture); !status)
     return complain(request.output.string(), status, ExitCode::internal_error);
-  return is_complete && *without_texture == 0 ? ExitCode::ok : ExitCode::findings;
+  say(written(request.output));
+  return is_complete && missing.empty() ? ExitCode::ok : ExitCode::findings;
 }
 
 }  // namespace
@@ -242,6 +233,8 @@ ExitCode run_picture(const PictureRequest& request) {
   if (const std::string fault = other_ending({"--output", request.output}, "png"); !fault.empty())
     warn(fault);
   Budget budget(request.budget, request.model.string());
+  ProgressBar progress(3);
+  progress.begin_step(0, "reading");
   const Result<LoadedCharacter> loaded =
       load_character(request.model, load_options(request.reading));
   if (!loaded) return complain(request.model.string(), loaded.error(), ExitCode::unreadable_input);
@@ -277,12 +270,7 @@ ExitCode run_picture(const PictureRequest& request) {
     return complain(request.model.string() + ": pose " + pose->name, subject.error(),
                     ExitCode::usage);
   warn_of_other_poses(*loaded->character, *subject, *operations);
-  budget.end();
-  if (!can_draw()) {
-    print_error(std::string("sunder: no picture: ") + kNoRenderer);
-    return ExitCode::unreadable_input;
-  }
-  const ExitCode code = draw_scene(request, *loaded, *subject, *operations);
+  const ExitCode code = draw_scene(request, *loaded, *subject, *operations, progress, budget);
   return code == ExitCode::ok && !has_all_textures ? ExitCode::findings : code;
 }
 

@@ -1,9 +1,7 @@
 #include "tools/picture/marks.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <utility>
 
@@ -12,8 +10,6 @@ namespace {
 
 /// Parts nearer to the eye than this share of the distance of the model are left out.
 constexpr double kLeastDepth = 0.05;
-/// Marks on top lie on planes before everything else, each a little nearer than the one before.
-constexpr double kBeforeAll = 0.98, kNearerEach = 2e-6;
 
 /// The four corners of a line of some width.
 std::vector<Vec2d> ribbon(const Vec2d& from, const Vec2d& to, double width) {
@@ -31,7 +27,7 @@ bool Marks::is_before_the_eye(const Vec3d& place) const {
 }
 
 void Marks::add(std::vector<Vec2d> corners, std::vector<double> depths, const Vec4f& color) {
-  pieces_.push_back({std::move(corners), std::move(depths), color});
+  marks_.push_back({std::move(corners), std::move(depths), color});
 }
 
 void Marks::line(const Vec3d& from, const Vec3d& to, double width, const Vec4f& color,
@@ -84,33 +80,6 @@ void Marks::line(const Vec2d& from, const Vec2d& to, double width, const Vec4f& 
 
 void Marks::polygon(std::span<const Vec2d> corners, const Vec4f& color) {
   add({corners.begin(), corners.end()}, {}, color);
-}
-
-std::vector<StillScene::Mark> Marks::finish(double nearest) const {
-  for (const Piece& piece : pieces_)
-    for (const double depth : piece.depths) nearest = std::min(nearest, depth);
-  nearest = std::max(nearest, kLeastDepth * viewport_.middle_depth());
-  std::map<std::array<float, 4>, StillScene::Mark> by_color;
-  double on_top = kBeforeAll * nearest;
-  for (const Piece& piece : pieces_) {
-    const Vec4f& c = piece.color;
-    StillScene::Mark& mark = by_color[{c[0], c[1], c[2], c[3]}];
-    mark.color = piece.color;
-    const auto first = static_cast<std::uint32_t>(mark.positions.size());
-    for (std::size_t i = 0; i < piece.corners.size(); ++i) {
-      const double depth = piece.depths.empty() ? on_top : piece.depths[i];
-      mark.positions.emplace_back(viewport_.place(piece.corners[i], depth).cast<float>());
-    }
-    for (std::uint32_t i = 2; i < piece.corners.size(); ++i)
-      mark.triangles.push_back({first, first + i - 1, first + i});
-    on_top *= 1 - kNearerEach;
-  }
-  std::vector<StillScene::Mark> marks;
-  for (auto& [color, mark] : by_color) {
-    mark.name = "Marks";
-    marks.push_back(std::move(mark));
-  }
-  return marks;
 }
 
 }  // namespace sunder::tools

@@ -2,10 +2,11 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
-#include "io/internal/still_scene.h"
 #include "tools/picture/viewport.h"
+#include "tools/render/render_scene.h"
 
 namespace sunder::tools {
 
@@ -32,20 +33,15 @@ class Marks {
   void line(const Vec2d& from, const Vec2d& to, double width, const Vec4f& color);
   void polygon(std::span<const Vec2d> corners, const Vec4f& color);
 
-  /// All marks, for the scene. @param nearest  the least depth of the surfaces, metres.
-  [[nodiscard]] std::vector<StillScene::Mark> finish(double nearest) const;
+  /// All marks, for the scene.
+  [[nodiscard]] std::vector<RenderMark> take() { return std::move(marks_); }
 
  private:
-  struct Piece {
-    std::vector<Vec2d> corners;
-    std::vector<double> depths;  ///< One per corner; empty on top.
-    Vec4f color;
-  };
   void add(std::vector<Vec2d> corners, std::vector<double> depths, const Vec4f& color);
   [[nodiscard]] bool is_before_the_eye(const Vec3d& place) const;
 
   const Viewport& viewport_;
-  std::vector<Piece> pieces_;
+  std::vector<RenderMark> marks_;
 };
 
 }  // namespace sunder::tools

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "io/internal/base_colours.h"
-
 namespace sunder::tools {
 namespace {
 
@@ -22,7 +20,7 @@ RenderMaterial::Wrap wrap_of(BaseColour::Wrap wrap) {
 
 }  // namespace
 
-Result<ModelLooks> ModelLooks::create(const SourceDocument* source) {
+Result<ModelLooks> ModelLooks::create(const SourceDocument* source, std::uint64_t most_pixels) {
   ModelLooks looks;
   RenderMaterial plain, flesh;
   plain.factor = kPlainColor;
@@ -30,26 +28,54 @@ Result<ModelLooks> ModelLooks::create(const SourceDocument* source) {
   flesh.factor = Vec4f::Ones();
   flesh.is_flesh = true;
   looks.materials_ = {flesh, plain};
-  looks.uv_sets_ = {0u, 0u};
+  looks.colours_.resize(kFirst);
   if (source == nullptr) return looks;
-  const Result<BaseColours> colours = read_base_colours(*source, kMostImageBytes);
+  Result<BaseColours> colours = read_base_colours(*source, kMostImageBytes);
   if (!colours) return colours.error();
+  std::uint64_t pixels_left = most_pixels;
+  looks.most_pixels_ = most_pixels;
   for (const BaseColours::Image& image : colours->images) {
-    Result<Image> decoded = decode_image(image.bytes);
+    Result<Image> decoded = decode_image(image.bytes, pixels_left);
     looks.images_.push_back(decoded ? std::move(*decoded) : Image());
+    pixels_left -= looks.images_.back().rgba.size() / 4;
   }
-  for (const BaseColour& colour : colours->materials) {
-    RenderMaterial material;
-    material.factor = colour.factor;
-    if (colour.image != kNone && looks.images_[colour.image].width > 0)
-      material.image = &looks.images_[colour.image];
-    material.wrap = {wrap_of(colour.wrap_u), wrap_of(colour.wrap_v)};
-    material.cutoff = colour.cutoff;
-    material.is_skin = true;
-    looks.materials_.push_back(material);
-    looks.uv_sets_.push_back(colour.uv_set);
+  for (BaseColour& colour : colours->materials) {
+    bool lacks_image = colour.lacks_image;
+    looks.materials_.push_back(looks.material_of(colour, lacks_image));
+    if (lacks_image) ++looks.without_texture_;
+    looks.colours_.push_back(colour);
   }
   return looks;
+}
+
+RenderMaterial ModelLooks::material_of(const BaseColour& colour, bool& lacks_image) const {
+  const auto find = [&](std::uint32_t image) -> const Image* {
+    if (image == kNone) return nullptr;
+    if (images_[image].width > 0) return &images_[image];
+    lacks_image = true;
+    return nullptr;
+  };
+  RenderMaterial material;
+  material.factor = colour.factor;
+  material.image = find(colour.image);
+  material.emission_image = find(colour.emission_image);
+  if (colour.emission_image == kNone || material.emission_image != nullptr)
+    material.emission = colour.emission;
+  material.wrap = {wrap_of(colour.wrap_u), wrap_of(colour.wrap_v)};
+  if (colour.cutoff > 0) material.alpha = RenderMaterial::Alpha::cut;
+  if (colour.is_blended) material.alpha = RenderMaterial::Alpha::blended;
+  material.cutoff = colour.cutoff;
+  material.is_unlit = colour.is_unlit;
+  material.is_skin = true;
+  return material;
+}
+
+std::string ModelLooks::missing_textures() const {
+  if (without_texture_ == 0) return {};
+  return std::to_string(without_texture_) +
+         " materials are drawn without a texture: its image is missing, neither PNG nor JPEG, or "
+         "too large (all together may have " +
+         std::to_string(most_pixels_) + " pixels)";
 }
 
 RenderScene ModelLooks::begin_scene() const {
@@ -75,14 +101,16 @@ void ModelLooks::add_mesh(const Mesh& mesh, const DeformedMesh& posed, const Fle
     drawn.has_flesh_inside = flesh.is_inside;
     // The plain material does not darken the colours of the vertices.
     const bool is_plain = drawn.material == kPlain && has_colors;
-    const std::uint32_t set = uv_sets_[drawn.material];
-    const bool has_uvs = set < mesh.uv_sets.size();
+    const BaseColour& colour = colours_[drawn.material];
+    const bool has_uvs = colour.uv_set < mesh.uv_sets.size();
     for (std::size_t i = 0; i < 3; ++i) {
       const std::uint32_t vertex = triangle[i];
       drawn.corners[i] = posed.positions[vertex];
       drawn.normals[i] = posed.normals[vertex];
       const Vec3f at = posed.positions[vertex] / flesh.unit;
-      drawn.uvs[i] = has_uvs ? mesh.uv_sets[set][vertex] : Vec2f(Vec2f::Zero());
+      drawn.uvs[i] = Vec2f::Zero();
+      if (has_uvs)
+        drawn.uvs[i] = colour.image_from_uv * mesh.uv_sets[colour.uv_set][vertex].homogeneous();
       if (is_flesh) drawn.uvs[i] = {at.x() + 0.5f * at.y(), -1000 - at.z() - 0.5f * at.y()};
       drawn.tints[i] = has_colors ? mesh.color_sets[0][vertex] : Vec4f(Vec4f::Ones());
       if (is_plain) drawn.tints[i] = drawn.tints[i].cwiseQuotient(kPlainColor);

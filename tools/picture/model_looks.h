@@ -4,19 +4,26 @@
 #include <sunder/io/character_file.h>
 #include <sunder/skinning/deform.h>
 
+#include <string>
 #include <vector>
 
+#include "io/internal/base_colours.h"
 #include "tools/render/render_scene.h"
 
 namespace sunder::tools {
 
-/// The materials of a model for drawing: base colours with their textures, PNG and JPEG. Textures
-/// that cannot be decoded are left out.
+/// The materials of a model for drawing: base colours and emission with their textures, PNG and
+/// JPEG. Each image is decoded once; those beyond a limit are left out.
 class ModelLooks {
  public:
-  /// @param source  null: a model without a file has no materials.
+  /// @param source       null: a model without a file has no materials.
+  /// @param most_pixels  of all images together.
   /// @return the failures of read_base_colours().
-  [[nodiscard]] static Result<ModelLooks> create(const SourceDocument* source);
+  [[nodiscard]] static Result<ModelLooks> create(const SourceDocument* source,
+                                                 std::uint64_t most_pixels = kMostImagePixels);
+
+  /// Says how many materials are drawn without a texture that their file names; empty if none is.
+  [[nodiscard]] std::string missing_textures() const;
 
   /// A scene without triangles that has these materials; it must not outlive this object.
   [[nodiscard]] RenderScene begin_scene() const;
@@ -37,10 +44,14 @@ class ModelLooks {
 
  private:
   static constexpr std::uint32_t kPlain = 1, kFirst = 2;
+  /// @param lacks_image  set if one could not be decoded.
+  [[nodiscard]] RenderMaterial material_of(const BaseColour& colour, bool& lacks_image) const;
 
   std::vector<Image> images_;
   std::vector<RenderMaterial> materials_;  ///< Flesh, a plain one, those of the file.
-  std::vector<std::uint32_t> uv_sets_;     ///< Per material.
+  std::vector<BaseColour> colours_;        ///< Per material, for its texture coordinates.
+  std::size_t without_texture_ = 0;        ///< Number of materials.
+  std::uint64_t most_pixels_ = 0;
 };
 
 }  // namespace sunder::tools

@@ -1,8 +1,6 @@
 #include "tools/picture/posed_robot.h"
 
-#include <utility>
-
-#include "tools/picture/picture.h"
+#include <cstddef>
 
 namespace sunder::tools {
 namespace {
@@ -15,11 +13,15 @@ Result<std::vector<Mesh>> robot_surfaces(const PosedRobot& robot) {
   if (robot.character.meshes.empty()) return std::vector<Mesh>();
   const Result<std::vector<DeformedMesh>> posed = pose_model(robot.character, robot.pose);
   if (!posed) return posed.error();
-  Character still = make_still(robot.character, *posed);
-  paint(still, kSteel);
-  for (Mesh& surface : still.meshes)
+  std::vector<Mesh> surfaces = robot.character.meshes;
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    Mesh& surface = surfaces[i];
+    surface.positions = (*posed)[i].positions;
+    surface.normals = (*posed)[i].normals;
+    surface.color_sets.assign(1, std::vector<Vec4f>(surface.positions.size(), kSteel));
     for (Submesh& submesh : surface.submeshes) submesh.material = kNone;
-  return std::move(still.meshes);
+  }
+  return surfaces;
 }
 
 std::vector<Vec3d> places_near(const std::vector<Mesh>& surfaces, const Vec3d& place,

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "tools/model/posed_model.h"
-#include "tools/picture/picture.h"
 #include "tools/picture/view.h"
 
 namespace sunder::tools {

@@ -7,14 +7,17 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <string>
 #include <vector>
 
+#include "tools/messages/progress_bar.h"
 #include "tools/model/history.h"
 #include "tools/model/posed_model.h"
 #include "tools/picture/open_lips.h"
 #include "tools/picture/rims.h"
 #include "tools/picture/torn_scene.h"
 #include "tools/picture/view.h"
+#include "tools/picture/wound_view.h"
 #include "tools/render/trace.h"
 
 namespace sunder::tools {
@@ -149,7 +152,10 @@ void move_apart(const Character& character, const PlaneCut& cut,
 }  // namespace
 
 Status draw_torn(const LoadedCharacter& loaded, std::span<const Operation> history,
-                 const std::filesystem::path& png, const PosedRobot* robot) {
+                 const std::filesystem::path& png, const Messages& messages,
+                 const PosedRobot* robot) {
+  ProgressBar progress(4);
+  progress.begin_step(0, "drawing: tearing soft tissue");
   const Operation& newest = newest_of(history);
   const Result<ModelPose> pose = make_pose(*loaded.character, last_pose_of(newest));
   if (!pose) return pose.error();
@@ -173,6 +179,7 @@ Status draw_torn(const LoadedCharacter& loaded, std::span<const Operation> histo
   const Bounds bounds = bounds_of(torn.character(), *closed);
   const double diagonal = bounds.size().norm();
   std::vector<DeformedMesh> open = *closed;
+  progress.begin_step(1, "drawing: opening lips");
   if (const Status status = open_lips(instance, *pose); !status) return status;
   displace(instance, open);
   std::vector<Wound> wounds = model->wounds;
@@ -186,10 +193,15 @@ Status draw_torn(const LoadedCharacter& loaded, std::span<const Operation> histo
       robot == nullptr ? std::vector<Mesh>() : robot_surfaces(*robot);
   if (!beside) return beside.error();
   if (robot != nullptr) frame = view_beside(frame);
+  progress.begin_step(2, "drawing: reading images");
   const Result<ModelLooks> looks = ModelLooks::create(loaded.source.get());
   if (!looks) return looks.error();
+  if (const std::string missing = looks->missing_textures(); !missing.empty())
+    messages.warn(png.string() + ": " + missing);
   RenderScene scene = make_torn_scene({torn, *closed, open, wounds}, *looks, kThickness * diagonal);
   add_robot(*beside, *looks, scene);
+  // A cut is seen from its side, where its pieces are apart.
+  if (cut == nullptr) frame = see_wound(scene, frame);
   // The picture of a cut shows its pieces, that of a bore its surroundings.
   const double margin = cut != nullptr                                   ? 3.1
                         : std::holds_alternative<DrillOperation>(newest) ? 2.4
@@ -197,6 +209,7 @@ Status draw_torn(const LoadedCharacter& loaded, std::span<const Operation> histo
   std::vector<Vec3d> shown = wound_places(torn, find_rims(torn), open);
   if (robot != nullptr) add_places_of_robot(*beside, diagonal, shown);
   const Camera camera = aim(frame, shown, bounds, robot == nullptr ? margin : 1.1);
+  progress.begin_step(3, "drawing");
   return write_png(png, trace(scene, camera, kSize));
 }
 

@@ -2,8 +2,8 @@
 
 #include <span>
 
-#include "tools/picture/render.h"
 #include "tools/picture/view.h"
+#include "tools/render/camera.h"
 
 namespace sunder::tools {
 

@@ -230,12 +230,4 @@ std::vector<Vec3d> WoundFlesh::places(const std::vector<DeformedMesh>& posed) co
   return places;
 }
 
-std::vector<Vec3d> WoundFlesh::outwards(const std::vector<DeformedMesh>& posed) const {
-  std::vector<Vec3d> directions;
-  for (const Section& section : sections_)
-    for (const Vertex& vertex : {section.left, section.right})
-      directions.push_back(posed[vertex.mesh].normals[vertex.vertex].cast<double>().normalized());
-  return directions;
-}
-
 }  // namespace sunder::tools

@@ -35,8 +35,6 @@ class WoundFlesh {
 
   /// The places of the lips, left and right in turn.
   [[nodiscard]] std::vector<Vec3d> places(const std::vector<DeformedMesh>& posed) const;
-  /// The directions of the surface there.
-  [[nodiscard]] std::vector<Vec3d> outwards(const std::vector<DeformedMesh>& posed) const;
 
  private:
   struct Vertex {

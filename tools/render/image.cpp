@@ -9,15 +9,15 @@
 namespace sunder::tools {
 namespace {
 
-constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 26;
-
-Status too_large(std::uint64_t width, std::uint64_t height) {
-  return Status::failure(
-      StatusCode::limit_exceeded, kNone, "an image has %llu x %llu pixels; 2^26 are read at most",
-      static_cast<unsigned long long>(width), static_cast<unsigned long long>(height));
+Status too_large(std::uint64_t width, std::uint64_t height, std::uint64_t most_pixels) {
+  return Status::failure(StatusCode::limit_exceeded, kNone,
+                         "an image has %llu x %llu pixels; %llu are read at most",
+                         static_cast<unsigned long long>(width),
+                         static_cast<unsigned long long>(height),
+                         static_cast<unsigned long long>(most_pixels));
 }
 
-Result<Image> decode_png(std::span<const std::byte> file) {
+Result<Image> decode_png(std::span<const std::byte> file, std::uint64_t most_pixels) {
   png_image png = {};
   png.version = PNG_IMAGE_VERSION;
   const auto fail = [&png] {
@@ -27,8 +27,8 @@ Result<Image> decode_png(std::span<const std::byte> file) {
     return status;
   };
   if (png_image_begin_read_from_memory(&png, file.data(), file.size()) == 0) return fail();
-  if (std::uint64_t{png.width} * png.height > kMostPixels) {
-    const Status status = too_large(png.width, png.height);
+  if (std::uint64_t{png.width} * png.height > most_pixels) {
+    const Status status = too_large(png.width, png.height, most_pixels);
     png_image_free(&png);
     return status;
   }
@@ -46,6 +46,9 @@ struct JpegErrors {
   char text[JMSG_LENGTH_MAX];
 };
 
+/// A progressive file of few bytes may pass over all its pixels thousands of times.
+constexpr int kMostScans = 64;
+
 [[noreturn]] void leave(j_common_ptr jpeg) {
   auto* const errors = reinterpret_cast<JpegErrors*>(jpeg->err);
   errors->manager.format_message(jpeg, errors->text);
@@ -53,6 +56,13 @@ struct JpegErrors {
 }
 
 void stay_silent(j_common_ptr /*jpeg*/) {}
+
+void count_scans(j_common_ptr jpeg) {
+  if (reinterpret_cast<j_decompress_ptr>(jpeg)->input_scan_number <= kMostScans) return;
+  auto* const errors = reinterpret_cast<JpegErrors*>(jpeg->err);
+  std::snprintf(errors->text, sizeof errors->text, "it has more than %d scans", kMostScans);
+  std::longjmp(errors->place, 1);
+}
 
 void read_rows(jpeg_decompress_struct& jpeg, Image& image) {
   const int channels = jpeg.out_color_components;
@@ -71,19 +81,23 @@ void read_rows(jpeg_decompress_struct& jpeg, Image& image) {
   }
 }
 
+/// @param most_pixels  that are read.
 /// @param image  outside, so that no object lives in a frame that an error leaves.
 /// @return nothing; the text of an error; "" if it is too large.
-const char* decode_jpeg_into(std::span<const std::byte> file, jpeg_decompress_struct& jpeg,
-                             JpegErrors& errors, Image& image) {
+const char* decode_jpeg_into(std::span<const std::byte> file, std::uint64_t most_pixels,
+                             jpeg_decompress_struct& jpeg, JpegErrors& errors, Image& image) {
   jpeg.err = jpeg_std_error(&errors.manager);
   errors.manager.error_exit = leave;
   errors.manager.output_message = stay_silent;
   if (setjmp(errors.place) != 0) return errors.text;
   jpeg_create_decompress(&jpeg);
+  jpeg_progress_mgr progress = {};
+  progress.progress_monitor = count_scans;
+  jpeg.progress = &progress;
   jpeg_mem_src(&jpeg, reinterpret_cast<const unsigned char*>(file.data()),
                static_cast<unsigned long>(file.size()));
   (void)jpeg_read_header(&jpeg, TRUE);
-  if (std::uint64_t{jpeg.image_width} * jpeg.image_height > kMostPixels) return "";
+  if (std::uint64_t{jpeg.image_width} * jpeg.image_height > most_pixels) return "";
   if (jpeg.jpeg_color_space != JCS_GRAYSCALE) jpeg.out_color_space = JCS_RGB;
   (void)jpeg_start_decompress(&jpeg);
   image.width = static_cast<int>(jpeg.output_width);
@@ -93,15 +107,15 @@ const char* decode_jpeg_into(std::span<const std::byte> file, jpeg_decompress_st
   return nullptr;
 }
 
-Result<Image> decode_jpeg(std::span<const std::byte> file) {
+Result<Image> decode_jpeg(std::span<const std::byte> file, std::uint64_t most_pixels) {
   jpeg_decompress_struct jpeg = {};
   JpegErrors errors = {};
   Image image;
-  const char* const error = decode_jpeg_into(file, jpeg, errors, image);
+  const char* const error = decode_jpeg_into(file, most_pixels, jpeg, errors, image);
   Status status;
   if (error != nullptr)
     status = *error == 0
-                 ? too_large(jpeg.image_width, jpeg.image_height)
+                 ? too_large(jpeg.image_width, jpeg.image_height, most_pixels)
                  : Status::failure(StatusCode::malformed_file, kNone, "a JPEG: %.100s", error);
   jpeg_destroy_decompress(&jpeg);
   if (!status) return status;
@@ -110,7 +124,7 @@ Result<Image> decode_jpeg(std::span<const std::byte> file) {
 
 }  // namespace
 
-Result<Image> decode_image(std::span<const std::byte> file) {
+Result<Image> decode_image(std::span<const std::byte> file, std::uint64_t most_pixels) {
   const auto begins_with = [file](std::initializer_list<unsigned> bytes) {
     if (file.size() < bytes.size()) return false;
     std::size_t i = 0;
@@ -118,8 +132,8 @@ Result<Image> decode_image(std::span<const std::byte> file) {
       if (static_cast<unsigned>(file[i++]) != byte) return false;
     return true;
   };
-  if (begins_with({0x89, 'P', 'N', 'G'})) return decode_png(file);
-  if (begins_with({0xff, 0xd8, 0xff})) return decode_jpeg(file);
+  if (begins_with({0x89, 'P', 'N', 'G'})) return decode_png(file, most_pixels);
+  if (begins_with({0xff, 0xd8, 0xff})) return decode_jpeg(file, most_pixels);
   return Status::failure(StatusCode::unsupported_format, kNone, "an image is neither PNG nor JPEG");
 }
 

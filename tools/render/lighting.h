@@ -4,32 +4,43 @@
 
 #include <array>
 #include <cstddef>
-#include <vector>
 
 #include "tools/render/camera.h"
 
 namespace sunder::tools {
 
-/// Lights infinitely far away. Each sample of a pixel asks for a part of them, in turn, so that
-/// shadows are soft without noise.
+/// Lights infinitely far away: a lamp above the left shoulder of the camera, a weak one on the other
+/// side, which casts no shadow, and the sky. A pixel asks for one pattern of directions in which it
+/// may be in shadow; 4 x 4 pixels together ask for all of them, so that their mean is smooth.
 class Lighting {
  public:
-  static constexpr std::size_t kSamples = 4;  ///< Per pixel.
+  static constexpr std::size_t kPatterns = 16, kSkyRays = 6, kLampRays = 2;
   struct Light {
     Vec3f towards;    ///< Unit length.
-    Vec3f intensity;  ///< Linear RGB; the light of all parts is the mean of the parts.
+    Vec3f intensity;  ///< Linear RGB.
   };
 
-  /// A lamp above the left shoulder of the camera, a weak one on the other side, and the sky.
   explicit Lighting(const Camera& camera);
 
-  [[nodiscard]] const std::vector<Light>& sky(std::size_t sample) const { return sky_[sample]; }
-  [[nodiscard]] const std::vector<Light>& lamp(std::size_t sample) const { return lamp_[sample]; }
+  /// Directions around a normal in z, more of them where the cosine is larger.
+  [[nodiscard]] const std::array<Vec3f, kSkyRays>& sky(std::size_t pattern) const {
+    return sky_[pattern];
+  }
+  /// Directions of places on the lamp, model space.
+  [[nodiscard]] const std::array<Vec3f, kLampRays>& lamp(std::size_t pattern) const {
+    return lamp_[pattern];
+  }
+  [[nodiscard]] const Light& middle_of_lamp() const { return middle_of_lamp_; }
   [[nodiscard]] const Light& fill() const { return fill_; }
+  /// The colour of the sky in a direction: paler above than below.
+  [[nodiscard]] static Vec3f sky_color(const Vec3f& towards);
+  /// The light of the whole sky on a surface, in closed form.
+  [[nodiscard]] static Vec3f sky_light(const Vec3f& normal);
 
  private:
-  std::array<std::vector<Light>, kSamples> sky_, lamp_;
-  Light fill_;
+  std::array<std::array<Vec3f, kSkyRays>, kPatterns> sky_;
+  std::array<std::array<Vec3f, kLampRays>, kPatterns> lamp_;
+  Light middle_of_lamp_, fill_;
 };
 
 }  // namespace sunder::tools

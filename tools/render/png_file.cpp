@@ -40,7 +40,7 @@ Bytes deflated(const Bytes& data) {
   Bytes result(size, '\0');
   (void)compress2(reinterpret_cast<Bytef*>(result.data()), &size,
                   reinterpret_cast<const Bytef*>(data.data()), static_cast<uLong>(data.size()),
-                  Z_BEST_COMPRESSION);
+                  Z_DEFAULT_COMPRESSION);
   result.resize(size);
   return result;
 }

@@ -13,11 +13,20 @@ namespace sunder::tools {
 /// How a surface of a RenderScene looks.
 struct RenderMaterial {
   enum class Wrap : std::uint8_t { repeat, clamp, mirror };
+  enum class Alpha : std::uint8_t {
+    ignored,  ///< Opaque.
+    cut,      ///< Nothing is there where alpha is below `cutoff`; opaque elsewhere.
+    blended,  ///< The rest of the light comes from behind.
+  };
 
   Vec4f factor = Vec4f(0.6f, 0.6f, 0.6f, 1);  ///< Linear RGBA, multiplied by image and tint.
+  Vec3f emission = Vec3f::Zero();             ///< Linear RGB, multiplied by its image.
   const Image* image = nullptr;               ///< Outlives the material.
+  const Image* emission_image = nullptr;      ///< Outlives the material.
   std::array<Wrap, 2> wrap = {};              ///< Of u and v.
-  float cutoff = 0;                           ///< Nothing is there where alpha is below.
+  Alpha alpha = Alpha::ignored;
+  float cutoff = 0.5f;
+  bool is_unlit = false;  ///< Its colour is shown as it is.
   bool is_flesh = false;  ///< Coloured by flesh_color() of the texture coordinates, and wet.
   bool is_skin = false;   ///< Reddened near wounds.
 };
@@ -31,15 +40,27 @@ struct RenderTriangle {
   bool has_flesh_inside = false;  ///< Seen from behind its normals.
 };
 
+/// A flat convex polygon of the picture, of a colour that no light changes.
+struct RenderMark {
+  std::vector<Vec2d> corners;  ///< Pixels: x to the right, y down, from the upper left corner.
+  /// Per corner its distance from the plane of the eye, metres: surfaces hide what is behind them.
+  /// Empty: the mark is on top of all surfaces and of the marks before it.
+  std::vector<double> depths;
+  Vec4f color = Vec4f::Ones();  ///< Linear RGBA.
+};
+
 /// A still surface, model space, metres, y up.
 struct RenderScene {
   std::vector<RenderMaterial> materials;
   std::vector<RenderTriangle> triangles;
+  std::vector<RenderMark> marks;
   /// The lips of wounds, as segments; skin is reddened within `redness` of them.
   std::vector<std::array<Vec3f, 2>> lips;
   float redness = 0;
-  float floor = 0;         ///< Height of the floor, which shows nothing but shadows.
-  float floor_radius = 0;  ///< Around the middle of the scene; 0: no floor.
+  Vec3f backdrop = Vec3f(0.62f, 0.65f, 0.69f);  ///< Linear RGB in the middle of the picture.
+  float backdrop_rise = 0.08f;  ///< By this share it is brighter at the upper edge.
+  float floor = 0;              ///< Height of the floor, which shows nothing but shadows.
+  float floor_radius = 0;       ///< Around the middle of the scene; 0: no floor.
 };
 
 }  // namespace sunder::tools

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "tools/render/lighting.h"
+#include "tools/render/redness.h"
 #include "tools/render/render_scene.h"
 #include "tools/render/triangle_tree.h"
 
@@ -10,32 +11,49 @@ namespace sunder::tools {
 /// ask.
 class Shading {
  public:
-  struct Hit {
-    std::uint32_t triangle = kNone;  ///< kNone: nothing was met.
-    float distance = 0;              ///< In lengths of the direction.
-    Vec3f place = Vec3f::Zero();
+  /// A place on a surface, as it is seen.
+  struct Surface {
+    Vec4f color = Vec4f::Zero();  ///< Linear RGBA.
+    Vec3f emission = Vec3f::Zero();
+    Vec3f normal = Vec3f::UnitY();  ///< Towards the eye, with bumps.
+    Vec3f smooth = Vec3f::UnitY();  ///< Without bumps.
+    Vec3f flat = Vec3f::UnitY();    ///< Of the triangle.
+    Vec3f place = Vec3f::Zero(), start = Vec3f::Zero();  ///< `start`: where rays begin.
+    float gloss = 0.035f, sharpness = 18;
+    bool is_unlit = false;
+  };
+  /// How much of the sky and of the lamp is seen from a place: sums over directions.
+  struct Light {
+    Vec3f sky = Vec3f::Zero(), whole_sky = Vec3f::Zero();
+    float lamp = 0, whole_lamp = 0;
+    void add(const Light& other, float weight);
+    [[nodiscard]] Vec3f share_of_sky() const;    ///< Per channel, 0 to 1.
+    [[nodiscard]] float share_of_lamp() const;  ///< 0 to 1.
   };
 
   Shading(const RenderScene& scene, const Lighting& lighting);
 
-  [[nodiscard]] Hit find(const Vec3f& from, const Vec3f& along) const;
-  /// Linear RGB, and how much of what is behind the surface it hides.
-  [[nodiscard]] Vec4f shade(const Hit& hit, const Vec3f& along, std::size_t sample) const;
-  /// The share of the light that reaches a place on the floor.
-  [[nodiscard]] float light_on_floor(const Vec3f& place) const;
+  /// The first surface on a ray beyond a distance.
+  [[nodiscard]] TriangleTree::Hit find(const Vec3f& from, const Vec3f& along, float beyond) const;
+  [[nodiscard]] Surface surface_at(const TriangleTree::Hit& hit, const Vec3f& from,
+                                   const Vec3f& along) const;
+  /// Looks in the directions of a pattern of the lighting; of the sky in the first ones.
+  [[nodiscard]] Light light_at(const Vec3f& start, const Vec3f& normal, const Vec3f& flat,
+                               std::size_t pattern, std::size_t sky_rays) const;
+  /// Linear RGB that is shown of a surface, each channel below 1.
+  [[nodiscard]] Vec3f shown(const Surface& surface, const Light& light, const Vec3f& along) const;
 
  private:
-  struct Surface;
-  [[nodiscard]] Surface surface_at(const Hit& hit, const Vec3f& along) const;
   /// Texture coordinates of flesh that is no wound of its own.
   [[nodiscard]] Vec2f inner_flesh(const Vec3f& place) const;
-  [[nodiscard]] Vec3f reddened(const Vec3f& color, const Vec3f& place) const;
+  [[nodiscard]] bool lets_pass(Index triangle, const Vec3f& shares, TriangleTree::Ray ray) const;
+  [[nodiscard]] TriangleTree::Holes holes() const;
 
   const RenderScene& scene_;
   const Lighting& lighting_;
-  TriangleTree all_, opaque_;
-  Vec3f least_lip_, greatest_lip_;
+  Redness redness_;
   float nearly_nothing_ = 0;  ///< By which rays start above surfaces.
+  TriangleTree tree_;
 };
 
 }  // namespace sunder::tools

@@ -1,136 +1,129 @@
 #include "tools/render/triangle_tree.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
-#include <limits>
-#include <numeric>
+#include <embree3/rtcore.h>
+#include <new>
 #include <utility>
 
 namespace sunder::tools {
 namespace {
 
-constexpr std::size_t kLeafSize = 4;
-constexpr std::size_t kMostOpen = 96;  ///< Nodes that wait; halves make a tree this deep at most.
+/// One thread builds, so that the order of the triangles, which decides between equal distances,
+/// does not depend on their number; the oldest instructions, so that it does not depend on the CPU.
+constexpr const char* kSettings = "threads=1,isa=sse2";
 
-/// Where a ray enters a box; beyond `farthest` if it does not.
-float entry(const Vec3f& least, const Vec3f& greatest, const Vec3f& from, const Vec3f& inverse,
-            float farthest) {
-  float enter = 0, leave = farthest;
-  for (int i = 0; i < 3; ++i) {
-    const float a = (least[i] - from[i]) * inverse[i], b = (greatest[i] - from[i]) * inverse[i];
-    enter = std::max(enter, std::min(a, b));
-    leave = std::min(leave, std::max(a, b));
+}  // namespace
+
+struct TriangleTree::State {
+  /// Triangles without holes are one geometry, those with holes another.
+  enum Part : std::size_t { solid, holed };
+
+  State(std::span<const Corners> triangles, Holes with_holes)
+      : holes(std::move(with_holes)), device(rtcNewDevice(kSettings)) {
+    for (Index t = 0; t < triangles.size(); ++t)
+      given[!holes.may_be_in.empty() && holes.may_be_in[t] ? holed : solid].push_back(t);
+    scene = rtcNewScene(device);
+    // Rays do not slip through between triangles that share an edge.
+    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+    for (const Part part : {solid, holed}) attach(triangles, part);
+    rtcCommitScene(scene);
+    if (rtcGetDeviceError(device) == RTC_ERROR_NONE) return;
+    release();
+    throw std::bad_alloc();
   }
-  return enter <= leave ? enter : std::numeric_limits<float>::max();
-}
+  ~State() { release(); }
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
 
-/// The distance of a triangle on a ray [moller1997fast]; negative if it is not met.
-float meet(const TriangleTree::Corners& triangle, const Vec3f& from, const Vec3f& along) {
-  const Vec3f ab = triangle[1] - triangle[0], ac = triangle[2] - triangle[0];
-  const Vec3f p = along.cross(ac);
-  const float determinant = ab.dot(p);
-  if (determinant == 0.0f) return -1;
-  const Vec3f offset = from - triangle[0];
-  const float u = offset.dot(p) / determinant;
-  if (!(u >= 0.0f && u <= 1.0f)) return -1;
-  const Vec3f q = offset.cross(ab);
-  const float v = along.dot(q) / determinant;
-  if (!(v >= 0.0f && u + v <= 1.0f)) return -1;
-  return ac.dot(q) / determinant;
+  void attach(std::span<const Corners> triangles, Part part) {
+    const std::vector<Index>& chosen = given[part];
+    if (chosen.empty()) return;
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* corner = static_cast<float*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                3 * sizeof(float), 3 * chosen.size()));
+    auto* index = static_cast<unsigned*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                3 * sizeof(unsigned), chosen.size()));
+    if (corner != nullptr && index != nullptr) {
+      unsigned next = 0;
+      for (const Index t : chosen)
+        for (const Vec3f& place : triangles[t]) {
+          for (int i = 0; i < 3; ++i) *corner++ = place[i];
+          *index++ = next++;
+        }
+      if (part == holed) {
+        rtcSetGeometryUserData(geometry, this);
+        rtcSetGeometryIntersectFilterFunction(geometry, &drop_holes<Ray::sight>);
+        rtcSetGeometryOccludedFilterFunction(geometry, &drop_holes<Ray::shadow>);
+      }
+      rtcCommitGeometry(geometry);
+      rtcAttachGeometryByID(scene, geometry, static_cast<unsigned>(part));
+    }
+    rtcReleaseGeometry(geometry);
+  }
+
+  template <Ray kRay>
+  static void drop_holes(const RTCFilterFunctionNArguments* found) {
+    const auto& state = *static_cast<const State*>(found->geometryUserPtr);
+    for (unsigned i = 0; i < found->N; ++i) {
+      if (found->valid[i] != -1) continue;
+      const float u = RTCHitN_u(found->hit, found->N, i), v = RTCHitN_v(found->hit, found->N, i);
+      const Index triangle = state.given[holed][RTCHitN_primID(found->hit, found->N, i)];
+      if (state.holes.lets_pass(triangle, Vec3f(1 - u - v, u, v), kRay)) found->valid[i] = 0;
+    }
+  }
+
+  void release() {
+    if (scene != nullptr) rtcReleaseScene(scene);
+    if (device != nullptr) rtcReleaseDevice(device);
+  }
+
+  Holes holes;
+  std::array<std::vector<Index>, 2> given;  ///< Per part: the index of each triangle.
+  RTCDevice device = nullptr;
+  RTCScene scene = nullptr;
+};
+
+namespace {
+
+RTCRay ray_of(const Vec3f& from, const Vec3f& along, float nearest, float farthest) {
+  RTCRay ray = {};
+  ray.org_x = from.x(), ray.org_y = from.y(), ray.org_z = from.z();
+  ray.dir_x = along.x(), ray.dir_y = along.y(), ray.dir_z = along.z();
+  ray.tnear = nearest;
+  ray.tfar = farthest;
+  ray.mask = ~0u;
+  return ray;
 }
 
 }  // namespace
 
-TriangleTree::TriangleTree(std::span<const Corners> triangles) : given_(triangles.size()) {
-  std::iota(given_.begin(), given_.end(), Index{0});
-  if (triangles.empty()) return;
-  std::vector<Vec3f> middles;
-  middles.reserve(triangles.size());
-  for (const Corners& t : triangles) middles.emplace_back((t[0] + t[1] + t[2]) / 3);
-  nodes_.reserve(triangles.size());
-  build(triangles, given_, middles);
-  triangles_.reserve(triangles.size());
-  for (const Index given : given_) triangles_.push_back(triangles[given]);
-}
+TriangleTree::TriangleTree(std::span<const Corners> triangles) : TriangleTree(triangles, {}) {}
 
-void TriangleTree::build(std::span<const Corners> triangles, std::span<Index> part,
-                         std::span<const Vec3f> middles) {
-  const std::size_t at = nodes_.size();
-  Node node;
-  node.least = node.greatest = triangles[part[0]][0];
-  Vec3f low = middles[part[0]], high = low;
-  for (const Index t : part) {
-    for (const Vec3f& corner : triangles[t]) {
-      node.least = node.least.cwiseMin(corner);
-      node.greatest = node.greatest.cwiseMax(corner);
-    }
-    low = low.cwiseMin(middles[t]);
-    high = high.cwiseMax(middles[t]);
-  }
-  nodes_.push_back(node);
-  if (part.size() <= kLeafSize) {
-    nodes_[at].first = static_cast<Index>(part.data() - given_.data());
-    nodes_[at].count = static_cast<Index>(part.size());
-    return;
-  }
-  Eigen::Index axis = 0;
-  (high - low).maxCoeff(&axis);
-  const std::size_t half = part.size() / 2;
-  std::nth_element(
-      part.begin(), part.begin() + static_cast<std::ptrdiff_t>(half), part.end(),
-      [&](Index a, Index b) {
-        return middles[a][axis] != middles[b][axis] ? middles[a][axis] < middles[b][axis] : a < b;
-      });
-  build(triangles, part.first(half), middles);
-  nodes_[at].first = static_cast<Index>(nodes_.size());
-  build(triangles, part.subspan(half), middles);
-}
+TriangleTree::TriangleTree(std::span<const Corners> triangles, Holes holes)
+    : state_(std::make_unique<State>(triangles, std::move(holes))) {}
 
-template <bool kAny>
-TriangleTree::Hit TriangleTree::search(const Vec3f& from, const Vec3f& along,
-                                       float farthest) const {
-  Hit best{kNone, farthest};
-  if (nodes_.empty()) return best;
-  const Vec3f inverse = along.cwiseInverse();
-  const auto enter = [&](Index at) {
-    return entry(nodes_[at].least, nodes_[at].greatest, from, inverse, best.distance);
-  };
-  struct Waiting {
-    Index node;
-    float distance;
-  };
-  std::array<Waiting, kMostOpen> open;
-  std::size_t count = 0;
-  open[count++] = {0, enter(0)};
-  while (count > 0) {
-    const Waiting next = open[--count];
-    if (next.distance > best.distance) continue;
-    const Node& node = nodes_[next.node];
-    if (node.count == 0) {
-      Waiting near{next.node + 1, enter(next.node + 1)}, far{node.first, enter(node.first)};
-      if (far.distance < near.distance) std::swap(near, far);
-      if (far.distance <= best.distance) open[count++] = far;
-      if (near.distance <= best.distance) open[count++] = near;
-      continue;
-    }
-    for (Index t = node.first; t < node.first + node.count; ++t) {
-      const float distance = meet(triangles_[t], from, along);
-      if (!(distance > 0.0f && distance < best.distance)) continue;
-      best = {given_[t], distance};
-      if constexpr (kAny) return best;
-    }
-  }
-  return best;
-}
+TriangleTree::~TriangleTree() = default;
 
-TriangleTree::Hit TriangleTree::first_hit(const Vec3f& from, const Vec3f& along,
-                                          float farthest) const {
-  return search<false>(from, along, farthest);
+TriangleTree::Hit TriangleTree::first_hit(const Vec3f& from, const Vec3f& along, float farthest,
+                                          float nearest) const {
+  RTCRayHit query = {};
+  query.ray = ray_of(from, along, nearest, farthest);
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(state_->scene, &context, &query);
+  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {kNone, farthest};
+  return {state_->given[query.hit.geomID][query.hit.primID], query.ray.tfar};
 }
 
 bool TriangleTree::is_blocked(const Vec3f& from, const Vec3f& along, float farthest) const {
-  return search<true>(from, along, farthest).triangle != kNone;
+  RTCRay ray = ray_of(from, along, 0, farthest);
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded1(state_->scene, &context, &ray);
+  return ray.tfar < 0;
 }
 
 }  // namespace sunder::tools

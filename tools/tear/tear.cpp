@@ -14,6 +14,7 @@
 #include "tools/messages/output_file.h"
 #include "tools/messages/printed.h"
 #include "tools/messages/progress_bar.h"
+#include "tools/messages/written_file.h"
 #include "tools/model/coupled_refits.h"
 #include "tools/model/load_notes.h"
 #include "tools/model/model_check.h"
@@ -82,7 +83,8 @@ bool draw_picture(const TearRun& run, const std::filesystem::path& png) {
     status = Status::failure(StatusCode::empty_input, kNone,
                              "the log has no operation that could be drawn");
   else
-    status = draw_torn(run.loaded, history, png, robot ? &*robot : nullptr);
+    status = draw_torn(run.loaded, history, png, run.messages, robot ? &*robot : nullptr);
+  if (status) run.messages.say(written(png));
   if (!status) (void)complain(png.string(), status, ExitCode::findings);
   return static_cast<bool>(status);
 }

@@ -1,6 +1,7 @@
 #include "io/internal/base_colours.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <utility>
@@ -44,6 +45,38 @@ BaseColour::Wrap wrap_of(const Json& sampler, const char* key) {
   return wrap == 33648 ? BaseColour::Wrap::mirror : BaseColour::Wrap::repeat;
 }
 
+float number_or(const Json& object, const char* key, std::size_t i, float otherwise) {
+  const Json& list = member(object, key);
+  if (!list.is_array() || i >= list.size() || !list[i].is_number()) return otherwise;
+  const auto value = list[i].get<float>();
+  return std::isfinite(value) ? value : otherwise;
+}
+
+/// Scaled, then turned, then moved, as KHR_texture_transform says.
+Eigen::Matrix<float, 2, 3> transform_of(const Json& transform) {
+  const Json& angle = member(transform, "rotation");
+  const float rotation = angle.is_number() ? angle.get<float>() : 0.0f;
+  const float cosine = std::isfinite(rotation) ? std::cos(rotation) : 1.0f,
+              sine = std::isfinite(rotation) ? std::sin(rotation) : 0.0f;
+  const float x = number_or(transform, "scale", 0, 1), y = number_or(transform, "scale", 1, 1);
+  Eigen::Matrix<float, 2, 3> result;
+  result << cosine * x, sine * y, number_or(transform, "offset", 0, 0), -sine * x, cosine * y,
+      number_or(transform, "offset", 1, 0);
+  return result;
+}
+
+Vec3f emission_of(const Json& material) {
+  const Json& strength =
+      member(member(member(material, "extensions"), "KHR_materials_emissive_strength"),
+             "emissiveStrength");
+  Vec3f emission;
+  for (std::size_t i = 0; i < 3; ++i)
+    emission[static_cast<int>(i)] =
+        std::clamp(number_or(material, "emissiveFactor", i, 0), 0.0f, 1.0f);
+  if (strength.is_number()) emission *= std::clamp(strength.get<float>(), 0.0f, 1e3f);
+  return emission;
+}
+
 class Reader {
  public:
   Reader(const SourceDocument& source, std::uint64_t maximum_bytes)
@@ -66,26 +99,46 @@ class Reader {
         colour.factor[i] = share_or(factor[static_cast<std::size_t>(i)], 1.0f);
     const Json& mode = member(material, "alphaMode");
     if (mode == "MASK") colour.cutoff = share_or(member(material, "alphaCutoff"), 0.5f);
-    if (mode == "BLEND") colour.cutoff = 0.5f;
-    const Json& reference = member(surface, "baseColorTexture");
+    colour.is_blended = mode == "BLEND";
+    if (colour.is_blended) colour.cutoff = 0.5f;
+    const Json& extensions = member(material, "extensions");
+    colour.is_unlit = member(extensions, "KHR_materials_unlit").is_object();
+    colour.emission = emission_of(material);
+    colour.image = read_texture(member(surface, "baseColorTexture"), true, colour);
+    if (const Json& emission = member(material, "emissiveTexture");
+        emission.is_object() && colour.emission.maxCoeff() > 0) {
+      colour.emission_image = read_texture(emission, colour.image == kNone, colour);
+      if (colour.emission_image == kNone) colour.emission.setZero();
+    }
+    return colour;
+  }
+
+  /// The image of a texture that a material refers to; kNone if there is none.
+  /// @param takes_place  whether its coordinates become those of the material.
+  std::uint32_t read_texture(const Json& reference, bool takes_place, BaseColour& colour) {
+    if (!reference.is_object()) return kNone;
     const Json& texture = entry(source_.json, "textures", member(reference, "index"));
-    if (!texture.is_object()) return colour;
     const Json& webp = member(member(texture, "extensions"), "EXT_texture_webp");
-    colour.image = image(member(webp.is_object() ? webp : texture, "source"));
-    if (const Json& set = member(reference, "texCoord"); set.is_number_unsigned())
-      if (const auto number = set.get<std::uint64_t>(); number < kNone)
-        colour.uv_set = static_cast<std::uint32_t>(number);
+    const std::uint32_t found = image(member(webp.is_object() ? webp : texture, "source"));
+    if (found == kNone) colour.lacks_image = true;
+    if (!takes_place || !texture.is_object()) return found;
+    const Json& transform = member(member(reference, "extensions"), "KHR_texture_transform");
+    for (const Json* const object : {&reference, &transform})
+      if (const Json& set = member(*object, "texCoord"); set.is_number_unsigned())
+        if (const auto number = set.get<std::uint64_t>(); number < kNone)
+          colour.uv_set = static_cast<std::uint32_t>(number);
+    colour.image_from_uv = transform_of(transform);
     const Json& sampler = entry(source_.json, "samplers", member(texture, "sampler"));
     colour.wrap_u = wrap_of(sampler, "wrapS");
     colour.wrap_v = wrap_of(sampler, "wrapT");
-    return colour;
+    return found;
   }
 
   /// The number of an image in the result; kNone if it is left out.
   std::uint32_t image(const Json& index) {
     const Json& image = entry(source_.json, "images", index);
     if (!image.is_object()) return kNone;
-    const auto [known, is_new] = numbers_.try_emplace(index.get<std::uint64_t>(), kNone);
+    const auto [known, is_new] = numbers_.try_emplace(place_of(image), kNone);
     if (!is_new) return known->second;
     std::optional<std::vector<std::byte>> bytes = bytes_of(image);
     const char* const type = bytes ? gltf::image_type(*bytes) : nullptr;
@@ -97,6 +150,15 @@ class Reader {
     known->second = static_cast<std::uint32_t>(found_.images.size());
     found_.images.push_back({type, std::move(*bytes)});
     return known->second;
+  }
+
+  /// Where the bytes of an image are: many images may be one view of a buffer, or one file.
+  [[nodiscard]] std::string place_of(const Json& image) const {
+    const Json& view = entry(source_.json, "bufferViews", member(image, "bufferView"));
+    if (const Json& uri = member(image, "uri"); !view.is_object())
+      return uri.is_string() ? "at " + uri.get<std::string>() : std::string();
+    return member(view, "buffer").dump() + " " + member(view, "byteOffset").dump() + " " +
+           member(view, "byteLength").dump();
   }
 
   std::optional<std::vector<std::byte>> bytes_of(const Json& image) const {
@@ -119,7 +181,7 @@ class Reader {
   const SourceDocument& source_;
   std::uint64_t bytes_left_;
   BaseColours found_;
-  std::map<std::uint64_t, std::uint32_t> numbers_;  ///< By index in /images.
+  std::map<std::string, std::uint32_t> numbers_;  ///< By place_of().
 };
 
 }  // namespace

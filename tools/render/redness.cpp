@@ -1,0 +1,61 @@
+#include "tools/render/redness.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sunder::tools {
+namespace {
+
+constexpr float kFarthest = 2;  ///< Where it ends, in reaches.
+
+std::uint64_t key_of(const std::array<std::int64_t, 3>& cell) {
+  std::uint64_t key = 0;
+  for (const std::int64_t i : cell)
+    key = (key ^ static_cast<std::uint64_t>(i)) * 0x9e3779b97f4a7c15u;
+  return key;  // Equal keys of two cells cost time alone.
+}
+
+float squared_distance(const Redness::Segment& segment, const Vec3f& place) {
+  const Vec3f along = segment[1] - segment[0], offset = place - segment[0];
+  const float length = along.squaredNorm();
+  const float t = length > 0 ? std::clamp(along.dot(offset) / length, 0.0f, 1.0f) : 0.0f;
+  return (offset - t * along).squaredNorm();
+}
+
+}  // namespace
+
+Redness::Redness(std::span<const Segment> lips, float reach) : lips_(lips), reach_(reach) {
+  if (!(reach > 0)) return;
+  const Vec3f margin = Vec3f::Constant(kFarthest * reach);
+  for (std::uint32_t i = 0; i < lips.size(); ++i) {
+    const auto least = cell_of(lips[i][0].cwiseMin(lips[i][1]) - margin),
+               greatest = cell_of(lips[i][0].cwiseMax(lips[i][1]) + margin);
+    for (std::int64_t x = least[0]; x <= greatest[0]; ++x)
+      for (std::int64_t y = least[1]; y <= greatest[1]; ++y)
+        for (std::int64_t z = least[2]; z <= greatest[2]; ++z)
+          near_[key_of({x, y, z})].push_back(i);
+  }
+}
+
+std::array<std::int64_t, 3> Redness::cell_of(const Vec3f& place) const {
+  std::array<std::int64_t, 3> cell;
+  for (int i = 0; i < 3; ++i)
+    cell[static_cast<std::size_t>(i)] =
+        static_cast<std::int64_t>(std::floor(place[i] / (kFarthest * reach_)));
+  return cell;
+}
+
+Vec3f Redness::reddened(const Vec3f& color, const Vec3f& place) const {
+  if (near_.empty()) return color;
+  const auto lips = near_.find(key_of(cell_of(place)));
+  if (lips == near_.end()) return color;
+  float nearest = std::numeric_limits<float>::max();
+  for (const std::uint32_t i : lips->second)
+    nearest = std::min(nearest, squared_distance(lips_[i], place));
+  const float share = 0.55f * std::exp(-nearest / (reach_ * reach_));
+  const Vec3f red = 0.35f * color + 0.25f * color.norm() * Vec3f(0.9f, 0.16f, 0.13f);
+  return color + share * (red - color);
+}
+
+}  // namespace sunder::tools

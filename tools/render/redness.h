@@ -1,0 +1,34 @@
+#pragma once
+
+#include <sunder/core/math.h>
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+namespace sunder::tools {
+
+/// How red skin is near the lips of wounds. Immutable; any number of threads may ask.
+class Redness {
+ public:
+  using Segment = std::array<Vec3f, 2>;
+
+  /// @param lips   outlive this object.
+  /// @param reach  distance at which redness fades; 0: there is none.
+  Redness(std::span<const Segment> lips, float reach);
+
+  /// A colour, linear RGB, as skin of this colour looks at a place. O(lips nearby).
+  [[nodiscard]] Vec3f reddened(const Vec3f& color, const Vec3f& place) const;
+
+ private:
+  [[nodiscard]] std::array<std::int64_t, 3> cell_of(const Vec3f& place) const;
+
+  std::span<const Segment> lips_;
+  float reach_ = 0;
+  /// Cells of space with the lips that may be near places in them.
+  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> near_;
+};
+
+}  // namespace sunder::tools

@@ -1,0 +1,178 @@
+#include "tools/render/tile.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace sunder::tools {
+namespace {
+
+constexpr int kBorder = 2;           ///< Pixels on each side over which light is averaged.
+/// Each of 4 x 4 patterns of directions counts the same.
+constexpr std::array<float, 5> kWeights = {0.5f, 1, 1, 1, 0.5f};
+constexpr int kMostLayers = 8;     ///< Of transparent surfaces.
+constexpr float kSameNormal = 0.8f;  ///< Least cosine on one surface.
+constexpr float kSamePlane = 3;      ///< Pixels between neighbours, off the plane.
+constexpr float kDarkest = 0.62f;    ///< Share of the floor's light that a shadow takes.
+constexpr float kLampOnFloor = 0.6f;  ///< Share of the lamp in the light of the floor.
+constexpr float kNowhere = 1e30f;
+
+/// Rotated by about 27 degrees, so that steep and flat edges are smooth alike.
+const std::array<Vec2d, Tile::kSamples> kPlaces = {
+    {{0.375, 0.125}, {0.875, 0.375}, {0.125, 0.625}, {0.625, 0.875}}};
+
+std::uint8_t as_byte(float linear) {
+  const float tone = std::clamp(linear, 0.0f, 1.0f);
+  const float coded =
+      tone <= 0.0031308f ? 12.92f * tone : 1.055f * std::pow(tone, 1 / 2.4f) - 0.055f;
+  return static_cast<std::uint8_t>(std::lround(255 * coded));
+}
+
+}  // namespace
+
+const Tile::Pixel& Tile::pixel_at(int x, int y) const {
+  return pixels_[static_cast<std::size_t>((y - top_) * (right_ - left_) + x - left_)];
+}
+
+void Tile::find_surfaces() {
+  pixels_.clear();
+  layers_.clear();
+  probes_.clear();
+  for (int y = top_; y < bottom_; ++y)
+    for (int x = left_; x < right_; ++x) {
+      Pixel& pixel = pixels_.emplace_back();
+      pixel.first_probe = static_cast<std::uint32_t>(probes_.size());
+      for (std::size_t sample = 0; sample < kSamples; ++sample) {
+        pixel.layers[sample] = static_cast<std::uint32_t>(layers_.size());
+        see(pixel, x, y, sample);
+      }
+      pixel.layers[kSamples] = static_cast<std::uint32_t>(layers_.size());
+    }
+}
+
+void Tile::see(Pixel& pixel, int x, int y, std::size_t sample) {
+  const double across = x + kPlaces[sample].x(), down = y + kPlaces[sample].y();
+  const Vec3f along = view_.along(across, down);
+  const float pixel_size = 2 * view_.up.norm() / static_cast<float>(view_.size.height);
+  float beyond = 0;
+  for (int i = 0; i < kMostLayers && drawn_.coverage.may_show(x, y); ++i) {
+    const TriangleTree::Hit hit = shading_.find(view_.eye, along, beyond);
+    if (hit.triangle == kNone) break;
+    Layer layer;
+    layer.surface = shading_.surface_at(hit, view_.eye, along);
+    layer.depth = hit.distance;
+    beyond = hit.distance * 1.00001f;
+    const Probe probe{layer.surface.place, layer.surface.smooth, {},
+                      kSamePlane * pixel_size * hit.distance, false};
+    layer.probe = probe_at(pixel, x, y, probe, layer.surface.start, layer.surface.flat);
+    layers_.push_back(layer);
+    if (layer.surface.color.w() >= 0.99f) return;
+  }
+  see_floor(pixel, x, y, along, sample);
+}
+
+void Tile::see_floor(Pixel& pixel, int x, int y, const Vec3f& along, std::size_t sample) {
+  if (scene_.floor_radius <= 0 || along.y() >= 0 || view_.eye.y() <= scene_.floor) return;
+  const Vec3f place = view_.eye + (scene_.floor - view_.eye.y()) / along.y() * along;
+  const Vec3f offset(place.x() - drawn_.middle.x(), 0, place.z() - drawn_.middle.z());
+  const float fade = 1 - offset.norm() / scene_.floor_radius;
+  if (fade <= 0) return;
+  const Vec3f up = Vec3f::UnitY();
+  pixel.floor_probe = probe_at(pixel, x, y, {place, up, {}, kNowhere, true}, place, up);
+  pixel.floor[sample] = std::min(1.0f, 2 * fade);
+}
+
+std::uint32_t Tile::probe_at(Pixel& pixel, int x, int y, const Probe& wanted, const Vec3f& start,
+                             const Vec3f& flat) {
+  for (std::uint32_t i = 0; i < pixel.probe_count; ++i) {
+    const Probe& probe = probes_[pixel.first_probe + i];
+    if (probe.is_floor == wanted.is_floor && probe.normal.dot(wanted.normal) > kSameNormal &&
+        std::abs(probe.normal.dot(wanted.place - probe.place)) < wanted.reach)
+      return pixel.first_probe + i;
+  }
+  // Further surfaces of a pixel look in other directions than the first one.
+  const auto pattern = static_cast<std::size_t>((x & 3) + 4 * (y & 3)) + 5 * pixel.probe_count;
+  Probe& added = probes_.emplace_back(wanted);
+  added.light =
+      shading_.light_at(start, wanted.normal, flat, pattern % Lighting::kPatterns,
+                        wanted.is_floor ? Lighting::kSkyRays / 2 : Lighting::kSkyRays);
+  return pixel.first_probe + pixel.probe_count++;
+}
+
+Shading::Light Tile::mean_light(const Probe& probe, int x, int y) const {
+  Shading::Light sum;
+  for (int down = -kBorder; down <= kBorder; ++down)
+    for (int across = -kBorder; across <= kBorder; ++across) {
+      if (x + across < left_ || x + across >= right_ || y + down < top_ || y + down >= bottom_)
+        continue;
+      const float weight = kWeights[static_cast<std::size_t>(down + kBorder)] *
+                           kWeights[static_cast<std::size_t>(across + kBorder)];
+      const Pixel& pixel = pixel_at(x + across, y + down);
+      for (std::uint32_t i = 0; i < pixel.probe_count; ++i) {
+        const Probe& other = probes_[pixel.first_probe + i];
+        if (other.is_floor == probe.is_floor && other.normal.dot(probe.normal) > kSameNormal &&
+            std::abs(probe.normal.dot(other.place - probe.place)) < probe.reach)
+          sum.add(other.light, weight);
+      }
+    }
+  return sum;
+}
+
+void Tile::shade(int x, int y, std::size_t sample, Vec3f& color, float& depth) {
+  const Pixel& pixel = pixel_at(x, y);
+  const double down = y + kPlaces[sample].y();
+  const Vec3f along = view_.along(x + kPlaces[sample].x(), down);
+  color.setZero();
+  depth = kNowhere;
+  float left = 1;
+  for (std::uint32_t i = pixel.layers[sample]; i < pixel.layers[sample + 1]; ++i) {
+    const Layer& layer = layers_[i];
+    const float alpha = layer.surface.color.w();
+    if (alpha >= 0.5f) depth = std::min(depth, layer.depth);
+    const Shading::Light& light = smooth_[layer.probe - pixel.first_probe];
+    color += left * alpha * shading_.shown(layer.surface, light, along);
+    left *= 1 - alpha;
+  }
+  if (!(left > 0)) return;
+  Vec3f backdrop = (1 + scene_.backdrop_rise * view_.height(down)) * scene_.backdrop;
+  if (pixel.floor[sample] > 0) {
+    const Shading::Light& light = smooth_[pixel.floor_probe - pixel.first_probe];
+    const float lit = kLampOnFloor * light.share_of_lamp() +
+                      (1 - kLampOnFloor) * light.share_of_sky().y();
+    backdrop *= 1 - pixel.floor[sample] * kDarkest * (1 - lit);
+  }
+  color += left * backdrop;
+}
+
+void Tile::draw(int left, int top, Picture& picture) {
+  const int right = std::min(left + kSide, view_.size.width),
+            bottom = std::min(top + kSide, view_.size.height);
+  left_ = std::max(0, left - kBorder);
+  top_ = std::max(0, top - kBorder);
+  right_ = std::min(view_.size.width, right + kBorder);
+  bottom_ = std::min(view_.size.height, bottom + kBorder);
+  find_surfaces();
+  SampledPart part{left, top, right - left, bottom - top, kPlaces, {}, {}};
+  for (int y = top; y < bottom; ++y)
+    for (int x = left; x < right; ++x) {
+      const Pixel& pixel = pixel_at(x, y);
+      smooth_.clear();
+      for (std::uint32_t i = 0; i < pixel.probe_count; ++i)
+        smooth_.push_back(mean_light(probes_[pixel.first_probe + i], x, y));
+      for (std::size_t sample = 0; sample < kSamples; ++sample)
+        shade(x, y, sample, part.colors.emplace_back(), part.depths.emplace_back());
+    }
+  lay_marks(scene_.marks, part);
+  auto color = part.colors.begin();
+  for (int y = top; y < bottom; ++y)
+    for (int x = left; x < right; ++x) {
+      Vec3f sum = Vec3f::Zero();
+      for (std::size_t sample = 0; sample < kSamples; ++sample) sum += *color++;
+      sum /= static_cast<float>(kSamples);
+      picture.colors[static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
+                     static_cast<std::size_t>(x)] = {as_byte(sum.x()), as_byte(sum.y()),
+                                                     as_byte(sum.z())};
+    }
+}
+
+}  // namespace sunder::tools

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "tools/render/coverage.h"
+#include "tools/render/marked_samples.h"
+#include "tools/render/png_file.h"
+#include "tools/render/render_view.h"
+#include "tools/render/shading.h"
+
+namespace sunder::tools {
+
+/// What tiles draw.
+struct TiledScene {
+  const RenderScene& scene;
+  const Shading& shading;
+  const RenderView& view;
+  const Coverage& coverage;
+  Vec3f middle;  ///< Of the scene; the floor is around it.
+};
+
+/// Draws parts of a picture. Rays from the eye find the surfaces in four places of each pixel;
+/// shadows are looked for once per pixel and surface, and averaged over the neighbouring pixels of
+/// the same surface. For one thread; the parts do not depend on each other.
+class Tile {
+ public:
+  static constexpr int kSide = 80;             ///< Pixels.
+  static constexpr std::size_t kSamples = 4;  ///< Per pixel.
+
+  explicit Tile(const TiledScene& drawn)
+      : scene_(drawn.scene), shading_(drawn.shading), view_(drawn.view), drawn_(drawn) {}
+
+  /// Draws the pixels from (left, top) to those kSide farther, or the edge.
+  void draw(int left, int top, Picture& picture);
+
+ private:
+  /// Where shadows are looked for: one per pixel and surface.
+  struct Probe {
+    Vec3f place, normal;
+    Shading::Light light;
+    float reach = 0;  ///< Of the same surface, off its plane.
+    bool is_floor = false;  ///< Which needs fewer directions.
+  };
+  /// What a sample sees, behind the layers before; behind the last one is the backdrop.
+  struct Layer {
+    Shading::Surface surface;
+    std::uint32_t probe = 0;
+    float depth = 0;
+  };
+  struct Pixel {
+    std::uint32_t first_probe = 0, probe_count = 0;
+    std::array<std::uint32_t, kSamples + 1> layers = {};  ///< Where those of each sample begin.
+    std::array<float, kSamples> floor = {};  ///< How strong shadows on the backdrop are.
+    std::uint32_t floor_probe = 0;           ///< Where there are some.
+  };
+  void find_surfaces();
+  void see(Pixel& pixel, int x, int y, std::size_t sample);
+  void see_floor(Pixel& pixel, int x, int y, const Vec3f& along, std::size_t sample);
+  [[nodiscard]] std::uint32_t probe_at(Pixel& pixel, int x, int y, const Probe& wanted,
+                                       const Vec3f& start, const Vec3f& flat);
+  [[nodiscard]] Shading::Light mean_light(const Probe& probe, int x, int y) const;
+  void shade(int x, int y, std::size_t sample, Vec3f& color, float& depth);
+
+  [[nodiscard]] const Pixel& pixel_at(int x, int y) const;
+
+  const RenderScene& scene_;
+  const Shading& shading_;
+  const RenderView& view_;
+  const TiledScene& drawn_;
+  int left_ = 0, top_ = 0, right_ = 0, bottom_ = 0;  ///< With a border, for the averages.
+  std::vector<Pixel> pixels_;
+  std::vector<Layer> layers_;
+  std::vector<Probe> probes_;
+  std::vector<Shading::Light> smooth_;  ///< Per probe of the pixel that is drawn.
+};
+
+}  // namespace sunder::tools
