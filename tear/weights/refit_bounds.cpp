@@ -67,9 +67,11 @@ void RefitBounds::allow(std::size_t point, std::size_t group) {
 }
 
 /// Reduces the slack of a point over a group until it allows less than a loss.
-/// @return false if no slack at all allows that loss still: it is within rounding.
+/// @return false if there was no slack any more, or none at all allows that loss still: it is within
+/// rounding.
 bool RefitBounds::lower(std::size_t point, std::size_t group, double loss) {
   const std::size_t at = point * groups_ + group;
+  if (level_[at] == kNoSlack) return false;
   while (level_[at] < kNoSlack && allowed_[at] - barycentric_[at] >= loss) {
     ++level_[at];
     allow(point, group);

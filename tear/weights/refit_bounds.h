@@ -35,13 +35,17 @@ class RefitBounds {
   [[nodiscard]] std::span<const double> barycentric(std::size_t point) const {
     return row(barycentric_, point);
   }
+  [[nodiscard]] std::span<const double> rounding(std::size_t point) const {
+    return row(rounding_, point);
+  }
   /// Whether barycentric weights are exact over some group.
   [[nodiscard]] bool is_exact(std::size_t point) const;
   /// Lets a point keep its barycentric weights for good; its next fit has to be those.
   void keep(std::size_t point) { is_kept_[point] = true; }
   [[nodiscard]] bool is_kept(std::size_t point) const { return is_kept_[point]; }
   /// The mean squared errors of a point's fit, one per group, which the caller fills in: those of
-  /// barycentric weights, or none above allowed(). At first those of barycentric weights.
+  /// barycentric weights exactly, or the largest that they can be, of a fit within allowed(). At
+  /// first those of barycentric weights.
   [[nodiscard]] std::span<double> of_fit(std::size_t point) {
     return std::span(of_fit_).subspan(point * groups_, groups_);
   }

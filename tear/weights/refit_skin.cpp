@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -19,6 +20,9 @@ namespace {
 
 /// A fit that reduces the mean square by less than this fraction is not worth a change.
 constexpr double kLeastGain = 2e-3;
+
+/// Rounding of a mean square that is a sum of moments, relative to the squared distances in it.
+constexpr double kMomentRounding = 16 * std::numeric_limits<double>::epsilon();
 
 /// Mean squares below this multiple of that of rounding do not count.
 constexpr double kWorthwhile = 100;
@@ -225,7 +229,31 @@ void SkinRefit::take(std::size_t i, PointFit fit) {
   const std::span<double> squares = bounds_.of_fit(i);
   measure(i, fit.influences, fit.position, squares);
   if (!std::ranges::equal(squares, bounds_.allowed(i), std::less_equal<>())) return reject(i);
+  add_doubt(i, fit.influences, squares);
   fits_[i] = std::move(fit);
+}
+
+/// Adds by how much the change of the mean squares of a point can be less than measured: sums of
+/// stored weights miss one, which moves a posed point by that share of its distance from the
+/// origin, and moments are sums of squared distances in double.
+void SkinRefit::add_doubt(std::size_t i, std::span<const Influence> influences,
+                          std::span<double> squares) const {
+  const auto missing = [](std::span<const Influence> of) {
+    double sum = 0;
+    for (const Influence& influence : of) sum += static_cast<double>(influence.weight);
+    return std::abs(sum - 1);
+  };
+  double exact = 0;
+  for (const AnimationPoint::Term& term : task_.points[points_[i]].exact.terms())
+    exact += term.q.w();
+  const double missed =
+      missing(influences) + missing(task_.barycentric(points_[i])) + 2 * std::abs(exact - 1);
+  for (std::size_t group = 0; group < squares.size(); ++group) {
+    const double length = std::sqrt(bounds_.rounding(i)[group]) / kStoredFitLengths;
+    const double moved = missed * length;
+    const double error = std::sqrt(std::max(squares[group], bounds_.barycentric(i)[group]));
+    squares[group] += (2 * error + moved) * moved + kMomentRounding * length * length;
+  }
 }
 
 /// Lets a point have barycentric weights.

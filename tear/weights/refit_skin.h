@@ -44,6 +44,8 @@ class SkinRefit {
   void fit_alone();
   void fit(std::size_t i, PointRefit& refit);
   void take(std::size_t i, PointFit fit);
+  void add_doubt(std::size_t i, std::span<const Influence> influences,
+                 std::span<double> squares) const;
   void reject(std::size_t i);
   void keep_certified(std::span<const std::size_t> fitted);
   [[nodiscard]] Status fit_together();

@@ -5,8 +5,9 @@
 
 #include <sunder/skinning/pose.h>
 
+#include <algorithm>
 #include <cstdio>
-#include <optional>
+#include <memory>
 
 #include <gtest/gtest.h>
 
@@ -22,13 +23,13 @@ constexpr int kTears = 3;
 /// Errors below this share of the diagonal are rounding: positions are stored in float.
 constexpr double kNothing = 2e-7;
 
-struct Result {
+struct Outcome {
   std::size_t groups = 0, lost = 0;
   double least = 1e300;
 };
 
 /// Tears a random rig three times, fits, and counts the groups that lose.
-Result refit_rig(std::uint64_t seed, const RefitOptions& options, std::uint32_t influences) {
+Outcome refit_rig(std::uint64_t seed, const RefitOptions& options, std::uint32_t influences) {
   test::Random random(seed);
   const test::AnimatedRig rig = test::any_animated_rig(random);
   const auto source = std::make_shared<const Character>(test::make_animated_rig(rig, random));
@@ -46,7 +47,7 @@ Result refit_rig(std::uint64_t seed, const RefitOptions& options, std::uint32_t 
   wanted.refit = options;
   const double nothing = kNothing * test::posed_diagonal(*source, *rest_pose(*source));
   const auto groups = test::refit_and_measure(model, wanted);
-  Result result{groups.size(), test::count_lost(groups, nothing)};
+  Outcome result{groups.size(), test::count_lost(groups, nothing)};
   for (const test::FittedGroup& group : groups) {
     const double gain = group.gain(nothing);
     if (gain < result.least) result.least = gain;
@@ -66,30 +67,31 @@ RefitOptions with_bound(double bound) {
   return options;
 }
 
-TEST(FittedGroups, rigs_that_once_lost_lose_no_more) {
-  for (const std::uint64_t seed : {230u, 1017u, 1108u})
-    for (const double bound : {0.0, 1.0, 1.25}) {
-      for (const std::uint32_t influences : {0u, 4u}) {
-        RefitOptions clips_alone;
-        clips_alone.bound = bound;
-        refit_rig(seed, with_bound(bound), influences);
-        refit_rig(seed, clips_alone, influences);
-      }
-    }
+TEST(FittedGroups, rigs_that_came_close_to_a_loss_lose_nothing) {
+  for (const std::uint64_t seed : {118u, 162u, 184u, 230u, 246u, 248u, 1017u, 1108u})
+    for (const double bound : {0.0, 1.0, 1.25}) refit_rig(seed, with_bound(bound), 4);
+  for (const std::uint64_t seed : {230u, 1017u, 1108u}) {
+    RefitOptions clips_alone;
+    refit_rig(seed, clips_alone, 0);
+  }
 }
 
 TEST(FittedGroups, no_random_rig_loses) {
-  Result all;
-  for (int seed = 0; seed < test::stressed(40, 250); ++seed) {
+  Outcome all;
+  const int rigs = test::stressed(40, 250);
+  for (int seed = 0; seed < rigs; ++seed) {
     constexpr double kBounds[] = {1.25, 0.0, 1.0};
-    const Result of =
+    const Outcome of =
         refit_rig(static_cast<std::uint64_t>(seed), with_bound(kBounds[seed % 3]), 4);
     all.groups += of.groups;
     all.lost += of.lost;
     all.least = std::min(all.least, of.least);
+    if (seed % 250 == 249 || seed + 1 == rigs) {
+      std::printf("%d rigs: %zu groups, of which %zu lost; least gain %.12f\n", seed + 1,
+                  all.groups, all.lost, all.least);
+      std::fflush(stdout);
+    }
   }
-  std::printf("%zu groups, of which %zu lost; least gain %.12f\n", all.groups, all.lost,
-              all.least);
   EXPECT_GT(all.groups, 100u);
 }
 
