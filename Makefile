@@ -39,7 +39,7 @@ test:
 	cmake --build --preset release
 	ctest --preset release -j $(jobs)
 
-coverage_tests := tear_test weights_test contact_test detach_test core_test memory_operators_test
+coverage_tests := tear_test refit_test weights_test contact_test detach_test core_test memory_operators_test
 coverage:
 	scripts/setup coverage
 	cmake --preset coverage

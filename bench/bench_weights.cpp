@@ -51,6 +51,8 @@ constexpr const char* kHelp =
     "                           each clip, rest, the poses of the tears, range of motion, random "
     "poses;\n"
     "                           of all rigged files and 200 random rigs, three seeds, four tears\n"
+    "  refit_groups             number of these groups\n"
+    "  refit_groups_lost        those with a gain below 1\n"
     "  refit_rigs               number of these rigs\n"
     "  refit_vs_today_time      time of a fit within bounds over groups of poses / that over the\n"
     "                           same poses as one group, without bounds; median of models\n";

@@ -178,8 +178,11 @@ RigFigures measure_rigs(const std::vector<WeightsModel>& models) {
 Summary summarise(const std::vector<ModelFigures>& models, const RigFigures& rigs) {
   Summary summary;
   summary.refit_gain_least_group = 1e9;
-  for (const test::RefitGains& rig : rigs.rigs)
+  for (const test::RefitGains& rig : rigs.rigs) {
     summary.refit_gain_least_group = std::min(summary.refit_gain_least_group, rig.least());
+    summary.refit_groups += rig.groups.size();
+    summary.refit_groups_lost += rig.lost();
+  }
   std::set<std::string> names;
   for (const test::RefitGains& rig : rigs.rigs) names.insert(rig.name);
   summary.refit_rigs = names.size();

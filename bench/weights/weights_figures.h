@@ -61,7 +61,7 @@ struct Summary {
   double refit_gain_rom_median = 0, refit_gain_min = 0;
   double refit_vs_exhaustive = 0, refit_us = 0, barycentric_us = 0;
   double refit_gain_least_group = 0, refit_vs_today_time = 0;
-  std::size_t refit_rigs = 0;
+  std::size_t refit_groups = 0, refit_groups_lost = 0, refit_rigs = 0;
 };
 
 [[nodiscard]] Summary summarise(const std::vector<ModelFigures>& models, const RigFigures& rigs);

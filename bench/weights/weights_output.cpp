@@ -171,6 +171,12 @@ void print_rigs(const RigFigures& figures) {
   print_rigs_row("random rigs", random);
   print_rigs_row("all", all);
   print_statistics(all);
+  std::size_t groups = 0, lost = 0;
+  for (const test::RefitGains& rig : figures.rigs) {
+    groups += rig.groups.size();
+    lost += rig.lost();
+  }
+  std::printf("\nOf %zu groups %zu lost.\n", groups, lost);
 }
 
 void print_lips(const std::vector<LipQuality>& ways) {
@@ -241,6 +247,8 @@ void print_weights_summary(const Summary& summary, std::FILE* file) {
   object.add("refit_us", summary.refit_us);
   object.add("barycentric_us", summary.barycentric_us);
   object.add("refit_gain_least_group", summary.refit_gain_least_group);
+  object.add("refit_groups", static_cast<double>(summary.refit_groups));
+  object.add("refit_groups_lost", static_cast<double>(summary.refit_groups_lost));
   object.add("refit_rigs", static_cast<double>(summary.refit_rigs));
   object.add("refit_vs_today_time", summary.refit_vs_today_time);
   object.end();

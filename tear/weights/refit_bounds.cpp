@@ -10,82 +10,117 @@ namespace sunder::tear {
 namespace {
 
 /// A point may exceed its barycentric mean square by these multiples of the mean of its operation,
-/// in one attempt after the other.
+/// one after the other.
 constexpr double kSlacks[] = {0.4, 0.1, 0.0};
 constexpr std::size_t kNoSlack = std::size(kSlacks) - 1;
 /// The largest part of what some points gain that others may lose. Less than 1, because the gain is
 /// smaller and the loss greater in poses that were not fitted.
 constexpr double kMostLost = 0.1;
+/// Fits whose mean squares together are below this share of the bounds of rounding are exact.
+constexpr double kExact = 0.25;
 
 }  // namespace
 
 RefitBounds::RefitBounds(std::size_t groups, std::span<const Index> operations)
     : groups_(groups),
       barycentric_(operations.size() * groups, 0.0),
-      rounding_(operations.size() * groups, 0.0) {
+      rounding_(operations.size() * groups, 0.0),
+      mean_(operations.size() * groups, 0.0),
+      level_(operations.size() * groups, 0),
+      is_kept_(operations.size(), false) {
   std::map<Index, std::size_t> numbers;
   for (std::size_t point = 0; point < operations.size(); ++point) {
     const std::size_t number = numbers.try_emplace(operations[point], numbers.size()).first->second;
     if (number == points_.size()) points_.emplace_back();
     points_[number].push_back(point);
   }
-  level_.assign(points_.size() * groups, 0);
 }
 
 void RefitBounds::set_barycentric(std::size_t point, std::size_t group, double mean_square,
                                   double rounding) {
-  barycentric_[point * groups_ + group] = std::max(mean_square, rounding);
+  barycentric_[point * groups_ + group] = mean_square;
   rounding_[point * groups_ + group] = rounding;
 }
 
 void RefitBounds::begin() {
   of_fit_ = allowed_ = barycentric_;
-  for (std::size_t operation = 0; operation < points_.size(); ++operation)
-    for (std::size_t group = 0; group < groups_; ++group) allow(operation, group);
+  for (const std::vector<std::size_t>& operation : points_)
+    for (std::size_t group = 0; group < groups_; ++group) {
+      double sum = 0;
+      for (const std::size_t point : operation) sum += barycentric_[point * groups_ + group];
+      for (const std::size_t point : operation) {
+        mean_[point * groups_ + group] = sum / static_cast<double>(operation.size());
+        allow(point, group);
+      }
+    }
 }
 
 bool RefitBounds::is_exact(std::size_t point) const {
   return !std::ranges::equal(barycentric(point), row(rounding_, point), std::greater<>());
 }
 
-/// Sets the bounds of an operation over a group.
-void RefitBounds::allow(std::size_t operation, std::size_t group) {
-  double sum = 0;
-  for (const std::size_t point : points_[operation]) sum += barycentric_[point * groups_ + group];
-  const double slack = kSlacks[level_[operation * groups_ + group]] * sum /
-                       static_cast<double>(points_[operation].size());
-  for (const std::size_t point : points_[operation]) {
+/// Sets the bound of a point over a group.
+void RefitBounds::allow(std::size_t point, std::size_t group) {
+  const std::size_t at = point * groups_ + group;
+  const bool is_exact = barycentric_[at] <= rounding_[at];
+  allowed_[at] = is_exact ? rounding_[at] : barycentric_[at] + kSlacks[level_[at]] * mean_[at];
+}
+
+/// Reduces the slack of a point over a group until it allows less than a loss.
+/// @return false if there was no slack any more, or none at all allows that loss still: it is within
+/// rounding.
+bool RefitBounds::lower(std::size_t point, std::size_t group, double loss) {
+  const std::size_t at = point * groups_ + group;
+  if (level_[at] == kNoSlack) return false;
+  while (level_[at] < kNoSlack && allowed_[at] - barycentric_[at] >= loss) {
+    ++level_[at];
+    allow(point, group);
+  }
+  return allowed_[at] - barycentric_[at] < loss;
+}
+
+/// If an operation loses too much over a group: adds the points that lose most to `open`, as many
+/// as are necessary if each of them will use what it may have then.
+void RefitBounds::tighten(std::span<const std::size_t> operation, std::size_t group,
+                          std::vector<std::size_t>& open) {
+  struct Losing {
+    std::size_t point;
+    double loss;
+  };
+  double gained = 0, lost = 0, all = 0, rounding = 0;
+  std::vector<Losing> losing;
+  for (const std::size_t point : operation) {
     const std::size_t at = point * groups_ + group;
-    allowed_[at] = barycentric_[at] + (barycentric_[at] > rounding_[at] ? slack : 0.0);
+    const double loss = of_fit_[at] - barycentric_[at];
+    (loss < 0 ? gained : lost) += std::abs(loss);
+    all += of_fit_[at];
+    rounding += rounding_[at];
+    if (loss > 0) losing.push_back({point, loss});
+  }
+  if (all <= kExact * rounding) return;
+  while (lost > kMostLost * gained) {
+    const auto worst = std::ranges::max_element(losing, {}, &Losing::loss);
+    if (!(worst->loss > 0)) return;  // `lost` is what rounding left of it
+    open.push_back(worst->point);
+    lost -= worst->loss;
+    const std::size_t at = worst->point * groups_ + group;
+    if (lower(worst->point, group, worst->loss)) {
+      worst->loss = std::max(allowed_[at] - barycentric_[at], 0.0);
+    } else {
+      keep(worst->point);
+      worst->loss = 0;
+    }
+    lost += worst->loss;
   }
 }
 
 std::vector<std::size_t> RefitBounds::tighten() {
-  std::vector<std::size_t> exceeding;
-  for (std::size_t operation = 0; operation < points_.size(); ++operation) {
-    bool is_tighter = false;
-    for (std::size_t group = 0; group < groups_; ++group) {
-      double gained = 0, lost = 0;
-      for (const std::size_t point : points_[operation]) {
-        const double change =
-            barycentric_[point * groups_ + group] - of_fit_[point * groups_ + group];
-        (change > 0 ? gained : lost) += std::abs(change);
-      }
-      std::size_t& level = level_[operation * groups_ + group];
-      if (lost <= kMostLost * gained || level == kNoSlack) continue;
-      ++level;
-      allow(operation, group);
-      is_tighter = true;
-    }
-    for (const std::size_t point : points_[operation]) {
-      const auto fit = of_fit(point);
-      const auto most = allowed(point);
-      if (is_tighter && !std::equal(fit.begin(), fit.end(), most.begin(), std::less_equal<>()))
-        exceeding.push_back(point);
-    }
-  }
-  std::sort(exceeding.begin(), exceeding.end());
-  return exceeding;
+  std::vector<std::size_t> open;
+  for (const std::vector<std::size_t>& operation : points_)
+    for (std::size_t group = 0; group < groups_; ++group) tighten(operation, group, open);
+  std::ranges::sort(open);
+  open.erase(std::unique(open.begin(), open.end()), open.end());
+  return open;
 }
 
 }  // namespace sunder::tear

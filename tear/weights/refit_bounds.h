@@ -12,8 +12,10 @@ namespace sunder::tear {
 /// Over no group may the sum over all points of an operation exceed that of barycentric weights. A
 /// bound per point that is as strict as that costs much where a point is better than others anyway.
 /// So a point may first exceed its own barycentric error by a multiple of the mean of its
-/// operation; over groups where the sum is too large the multiple is reduced, and the points that
-/// exceed the new bounds are fitted again. Where barycentric weights are exact, there is no slack.
+/// operation. Over groups where the points together lose too much, those that lose most get less,
+/// as many as necessary, and are fitted again. A point that has no slack left, and loses within
+/// rounding only, keeps its barycentric weights. docs/weights.md shows that this ends, and that no
+/// group is worse then.
 class RefitBounds {
  public:
   /// @param groups      number of groups of poses.
@@ -33,15 +35,23 @@ class RefitBounds {
   [[nodiscard]] std::span<const double> barycentric(std::size_t point) const {
     return row(barycentric_, point);
   }
+  [[nodiscard]] std::span<const double> rounding(std::size_t point) const {
+    return row(rounding_, point);
+  }
   /// Whether barycentric weights are exact over some group.
   [[nodiscard]] bool is_exact(std::size_t point) const;
-  /// The mean squared errors of a point's fit, one per group, which the caller fills in. At first
-  /// those of barycentric weights.
+  /// Lets a point keep its barycentric weights for good; its next fit has to be those.
+  void keep(std::size_t point) { is_kept_[point] = true; }
+  [[nodiscard]] bool is_kept(std::size_t point) const { return is_kept_[point]; }
+  /// The mean squared errors of a point's fit, one per group, which the caller fills in: those of
+  /// barycentric weights exactly, or the largest that they can be, of a fit within allowed(). At
+  /// first those of barycentric weights.
   [[nodiscard]] std::span<double> of_fit(std::size_t point) {
     return std::span(of_fit_).subspan(point * groups_, groups_);
   }
-  /// Reduces the slack over groups whose sum is too large.
-  /// @return the points whose fits exceed the new bounds, ascending; empty: the fits can be taken.
+  /// Reduces the slack of points over groups in which their operation loses too much.
+  /// @return the points to fit again, because they exceed the new bounds or are kept, ascending;
+  /// empty: over no group is an operation worse than with barycentric weights.
   [[nodiscard]] std::vector<std::size_t> tighten();
 
  private:
@@ -49,12 +59,17 @@ class RefitBounds {
                                             std::size_t point) const {
     return std::span(of).subspan(point * groups_, groups_);
   }
-  void allow(std::size_t operation, std::size_t group);
+  void tighten(std::span<const std::size_t> operation, std::size_t group,
+               std::vector<std::size_t>& open);
+  [[nodiscard]] bool lower(std::size_t point, std::size_t group, double loss);
+  void allow(std::size_t point, std::size_t group);
 
   std::size_t groups_;
   std::vector<std::vector<std::size_t>> points_;  ///< Per operation that has points.
   std::vector<double> barycentric_, allowed_, of_fit_, rounding_;  ///< Points x groups.
-  std::vector<std::size_t> level_;  ///< Operations x groups: of the slack.
+  std::vector<double> mean_;        ///< Likewise: of barycentric_ over the point's operation.
+  std::vector<std::size_t> level_;  ///< Likewise: of the slack.
+  std::vector<bool> is_kept_;       ///< Per point.
 };
 
 }  // namespace sunder::tear

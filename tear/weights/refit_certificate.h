@@ -11,7 +11,7 @@
 namespace sunder::tear {
 
 /// Bounds how far weighted points can stray from their exact motion in any pose, with free joints:
-/// docs/certificate.md.
+/// docs/certificate.md. A bound is infinity for a point without a certificate.
 class RefitCertificate {
  public:
   /// Points without a certificate everywhere if the skeleton has none: bones that are singular at
@@ -21,8 +21,7 @@ class RefitCertificate {
   /// Adds a point with some weights. @param skin  of the point.
   void add(const AnimationPoint& exact, std::span<const Influence> influences,
            const Vec3d& position, std::uint32_t skin);
-  /// The bounds of the points that were added since, metres; infinity for one without a
-  /// certificate. Empties the list.
+  /// The bounds of the points that were added since, metres. Empties the list.
   [[nodiscard]] std::vector<double> take_bounds();
 
  private:

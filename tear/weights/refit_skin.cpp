@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <numeric>
 #include <utility>
 
 #include "core/internal/ordered.h"
 #include "tear/geometry/tolerances.h"
+#include "tear/weights/refit_certificate.h"
 #include "weights/internal/coupled_refit.h"
 #include "weights/internal/refit_terms.h"
 
@@ -17,6 +20,9 @@ namespace {
 
 /// A fit that reduces the mean square by less than this fraction is not worth a change.
 constexpr double kLeastGain = 2e-3;
+
+/// Rounding of a mean square that is a sum of moments, relative to the squared distances in it.
+constexpr double kMomentRounding = 16 * std::numeric_limits<double>::epsilon();
 
 /// Mean squares below this multiple of that of rounding do not count.
 constexpr double kWorthwhile = 100;
@@ -42,10 +48,13 @@ double squared_scale(const AnimationPoint& point, const PoseMoments& moments, st
 
 }  // namespace
 
-SkinRefit::SkinRefit(const RefitTask& task, Index skin, std::vector<std::size_t> points)
+SkinRefit::SkinRefit(const RefitTask& task, Index skin, std::vector<std::size_t> points,
+                     RefitCertificate& certificate)
     : task_(task),
       skin_(skin),
       points_(std::move(points)),
+      certificate_(certificate),
+      fits_(points_.size()),
       moments_(0, Vec3d::Zero()),
       bounds_(0, {}),
       rounding_(points_.size()) {}
@@ -190,14 +199,16 @@ bool SkinRefit::gains(std::size_t i, double mean_square, double barycentric) con
 
 void SkinRefit::fit_alone() {
   PointRefit refit;
-  fits_.resize(points_.size());
   std::vector<std::size_t> open(points_.size());
   std::iota(open.begin(), open.end(), 0u);
-  for (; !open.empty() && !task_.is_cancelled; open = bounds_.tighten())
+  for (; !open.empty() && !task_.is_cancelled; open = bounds_.tighten()) {
     for (std::size_t n = 0; n < open.size() && !task_.is_cancelled; ++n) fit(open[n], refit);
+    keep_certified(open);
+  }
 }
 
 void SkinRefit::fit(std::size_t i, PointRefit& refit) {
+  if (bounds_.is_kept(i)) return reject(i);
   PointToRefit point = to_refit(i);
   PointRefit::Fit fit = refit.fit(point, options(), moments_);
   if (norm(fit.position - point.position) > task_.points[points_[i]].reach) {
@@ -210,13 +221,68 @@ void SkinRefit::fit(std::size_t i, PointRefit& refit) {
            fit.position});
 }
 
-/// Takes a fit, and measures what it has over each group.
+/// Takes a fit as it is stored, if it exceeds no bound over any group.
 void SkinRefit::take(std::size_t i, PointFit fit) {
+  if (!fit.is_taken || bounds_.is_kept(i)) return reject(i);
+  const RefitTask::Point& point = task_.points[points_[i]];
+  if (fit.position != point.position) fit.position = point.stored(fit.position);
+  const std::span<double> squares = bounds_.of_fit(i);
+  measure(i, fit.influences, fit.position, squares);
+  if (!std::ranges::equal(squares, bounds_.allowed(i), std::less_equal<>())) return reject(i);
+  add_doubt(i, fit.influences, squares);
   fits_[i] = std::move(fit);
-  if (fits_[i].is_taken)
-    measure(i, fits_[i].influences, fits_[i].position, bounds_.of_fit(i));
-  else
-    std::ranges::copy(bounds_.barycentric(i), bounds_.of_fit(i).begin());
+}
+
+/// Adds by how much the change of the mean squares of a point can be less than measured: sums of
+/// stored weights miss one, which moves a posed point by that share of its distance from the
+/// origin, and moments are sums of squared distances in double.
+void SkinRefit::add_doubt(std::size_t i, std::span<const Influence> influences,
+                          std::span<double> squares) const {
+  const auto missing = [](std::span<const Influence> of) {
+    double sum = 0;
+    for (const Influence& influence : of) sum += static_cast<double>(influence.weight);
+    return std::abs(sum - 1);
+  };
+  double exact = 0;
+  for (const AnimationPoint::Term& term : task_.points[points_[i]].exact.terms())
+    exact += term.q.w();
+  const double missed =
+      missing(influences) + missing(task_.barycentric(points_[i])) + 2 * std::abs(exact - 1);
+  for (std::size_t group = 0; group < squares.size(); ++group) {
+    const double length = std::sqrt(bounds_.rounding(i)[group]) / kStoredFitLengths;
+    const double moved = missed * length;
+    const double error = std::sqrt(std::max(squares[group], bounds_.barycentric(i)[group]));
+    squares[group] += (2 * error + moved) * moved + kMomentRounding * length * length;
+  }
+}
+
+/// Lets a point have barycentric weights.
+void SkinRefit::reject(std::size_t i) {
+  fits_[i] = PointFit();
+  fits_[i].point = points_[i];
+  fits_[i].certified = task_.points[points_[i]].certified;
+  std::ranges::copy(bounds_.barycentric(i), bounds_.of_fit(i).begin());
+}
+
+/// Gives up the fits, of some points, that could stray farther in some pose than the options allow.
+void SkinRefit::keep_certified(std::span<const std::size_t> fitted) {
+  std::vector<std::size_t> taken;
+  for (const std::size_t i : fitted)
+    if (fits_[i].is_taken) taken.push_back(i);
+  for (const std::size_t i : taken)
+    certificate_.add(task_.points[points_[i]].exact, fits_[i].influences, fits_[i].position,
+                     static_cast<std::uint32_t>(skin_));
+  const std::vector<double> bounds = certificate_.take_bounds();
+  const double most = task_.operation.refit.bound * task_.report.certified_barycentric;
+  for (std::size_t n = 0; n < taken.size(); ++n) {
+    const std::size_t i = taken[n];
+    fits_[i].certified = bounds[n];
+    if (task_.operation.refit.bound == 0 || bounds[n] <= most ||
+        !std::isfinite(task_.points[points_[i]].certified))
+      continue;
+    bounds_.keep(i);
+    reject(i);
+  }
 }
 
 /// Fits all points in one problem.
@@ -228,15 +294,16 @@ Status SkinRefit::fit_together() {
     const Index a = number[pair.a], b = pair.b == kNone ? kNone : number[pair.b];
     if (a != kNone && (b != kNone || pair.b == kNone)) of_these.push_back({a, b, pair.length});
   }
-  fits_.resize(points_.size());
   const double smoothness = task_.operation.refit.smoothness * square_;
   std::vector<PointToRefit> together(points_.size());
   std::vector<bool> stays(points_.size(), false);
+  std::vector<std::size_t> all(points_.size());
+  std::iota(all.begin(), all.end(), 0u);
   bool is_done = false;
   while (!is_done && !task_.is_cancelled) {
     for (std::size_t i = 0; i < points_.size(); ++i) {
       together[i] = to_refit(i);
-      together[i].may_move = together[i].may_move && !stays[i];
+      together[i].may_move = together[i].may_move && !stays[i] && !bounds_.is_kept(i);
     }
     const auto fits = refit_coupled(together, of_these, {options(), smoothness}, moments_);
     if (!fits) return fits.error();
@@ -250,6 +317,7 @@ Status SkinRefit::fit_together() {
       take(i, {points_[i], fit.is_better && gains(i, fit.mean_square, fit.barycentric_mean_square),
                fit.influences, fit.position});
     }
+    keep_certified(all);
     is_done = is_done && bounds_.tighten().empty();
   }
   return {};

@@ -17,11 +17,14 @@ namespace sunder::tear {
 /// The sum that is minimised is, over the groups of poses, the mean square of each group divided by
 /// what all points of the skin have there with barycentric weights, times its importance.
 /// RefitBounds holds the bounds over each group, over random poses and over the poses of the
-/// operation.
+/// operation. Fits are measured as they are stored, and those that the certificate refuses are
+/// given up before the sums of an operation are compared, so nothing changes the sums afterwards.
 class SkinRefit {
  public:
   /// @param points  of the task, that the skin moves; at least one.
-  SkinRefit(const RefitTask& task, Index skin, std::vector<std::size_t> points);
+  /// @param certificate  without points; outlives this.
+  SkinRefit(const RefitTask& task, Index skin, std::vector<std::size_t> points,
+            RefitCertificate& certificate);
 
   /// Fits the points. Stops early if the task is cancelled.
   [[nodiscard]] Status run();
@@ -41,11 +44,16 @@ class SkinRefit {
   void fit_alone();
   void fit(std::size_t i, PointRefit& refit);
   void take(std::size_t i, PointFit fit);
+  void add_doubt(std::size_t i, std::span<const Influence> influences,
+                 std::span<double> squares) const;
+  void reject(std::size_t i);
+  void keep_certified(std::span<const std::size_t> fitted);
   [[nodiscard]] Status fit_together();
 
   const RefitTask& task_;
   Index skin_;
   std::vector<std::size_t> points_;
+  RefitCertificate& certificate_;
   std::vector<PointFit> fits_;
   PoseMoments moments_;  ///< Per group of poses, and last the sum that is minimised.
   std::optional<RefitPoses> poses_;

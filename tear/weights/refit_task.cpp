@@ -77,18 +77,17 @@ void RefitTask::run() {
   State expected = State::waiting;
   if (!state.compare_exchange_strong(expected, State::running)) return;
   try {
+    RefitCertificate certificate(*source);
+    certify(certificate);
     std::vector<PointFit> fits;
     for (Index skin = 0; skin < source->skins.size() && failure && !is_cancelled; ++skin) {
-      auto of_skin = fit(skin);
+      auto of_skin = fit(skin, certificate);
       if (of_skin)
         std::move(of_skin->begin(), of_skin->end(), std::back_inserter(fits));
       else
         failure = of_skin.error();
     }
-    if (failure && !is_cancelled) {
-      keep_bound(fits);
-      store(fits);
-    }
+    if (failure && !is_cancelled) store(fits);
   } catch (const std::bad_alloc&) {
     failure = out_of_memory();
   }
@@ -105,42 +104,27 @@ void RefitTask::cancel() {
     state.compare_exchange_strong(from, State::cancelled);
 }
 
+/// Certifies the points with barycentric weights.
+void RefitTask::certify(RefitCertificate& certificate) {
+  for (std::size_t i = 0; i < points.size(); ++i)
+    certificate.add(points[i].exact, barycentric(i), points[i].position, points[i].skin);
+  const std::vector<double> bounds = certificate.take_bounds();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    points[i].certified = bounds[i];
+    if (std::isfinite(bounds[i]))
+      report.certified_barycentric = std::max(report.certified_barycentric, bounds[i]);
+  }
+}
+
 /// Fits the points of a skin.
-Result<std::vector<PointFit>> RefitTask::fit(Index skin) const {
+Result<std::vector<PointFit>> RefitTask::fit(Index skin, RefitCertificate& certificate) const {
   std::vector<std::size_t> of_skin;
   for (std::size_t i = 0; i < points.size(); ++i)
     if (points[i].skin == skin) of_skin.push_back(i);
   if (of_skin.empty()) return std::vector<PointFit>();
-  SkinRefit refit(*this, skin, std::move(of_skin));
+  SkinRefit refit(*this, skin, std::move(of_skin), certificate);
   if (Status status = refit.run(); !status) return status;
   return refit.take_fits();
-}
-
-/// Certifies the points with barycentric weights and with their fits, and gives up the fits of
-/// points that could stray farther in some pose than the options allow.
-void RefitTask::keep_bound(std::vector<PointFit>& fits) {
-  RefitCertificate certificate(*source);
-  for (const PointFit& fit : fits)
-    certificate.add(points[fit.point].exact, barycentric(fit.point), points[fit.point].position,
-                    points[fit.point].skin);
-  const std::vector<double> before = certificate.take_bounds();
-  for (const PointFit& fit : fits)
-    certificate.add(
-        points[fit.point].exact,
-        fit.is_taken ? std::span<const Influence>(fit.influences) : barycentric(fit.point),
-        fit.is_taken ? fit.position : points[fit.point].position, points[fit.point].skin);
-  const std::vector<double> after = certificate.take_bounds();
-  for (const double bound : before)
-    if (std::isfinite(bound))
-      report.certified_barycentric = std::max(report.certified_barycentric, bound);
-  const double most = operation.refit.bound * report.certified_barycentric;
-  for (std::size_t i = 0; i < fits.size(); ++i) {
-    const bool is_certified = std::isfinite(before[i]) && std::isfinite(after[i]);
-    report.uncertified += is_certified ? 0 : 1;
-    if (!is_certified) continue;
-    if (operation.refit.bound > 0 && after[i] > most) fits[i].is_taken = false;
-    report.certified = std::max(report.certified, fits[i].is_taken ? after[i] : before[i]);
-  }
 }
 
 /// The influences with which a point started.
@@ -164,6 +148,10 @@ void RefitTask::store(const std::vector<PointFit>& fits) {
     point.first_influence = first;
     point.influence_count = static_cast<Index>(influences.size());
     report.refitted += fit.is_taken ? 1 : 0;
+    if (std::isfinite(fit.certified))
+      report.certified = std::max(report.certified, fit.certified);
+    else
+      ++report.uncertified;
   }
   assignment.influences.swap(fitted);
 }

@@ -14,12 +14,15 @@
 
 namespace sunder::tear {
 
+class RefitCertificate;
+
 /// The fit of a point.
 struct PointFit {
   std::size_t point = 0;  ///< In RefitTask::points.
   bool is_taken = false;  ///< If false, the point keeps its barycentric weights.
   std::vector<Influence> influences;
-  Vec3d position = Vec3d::Zero();
+  Vec3d position = Vec3d::Zero();  ///< As it is stored, in float, with the morph displacement.
+  double certified = 0;            ///< The bound of RefitCertificate with these weights, metres.
 };
 
 /// A refit that runs in the background: a copy of its input, and its result. Other threads may
@@ -35,6 +38,12 @@ struct RefitTask {
     /// How far the bind position may move, metres in bind space: if no point moves farther, no face
     /// is turned over and no point leaves the faces around it.
     double reach = 0;
+    double certified = 0;  ///< The bound of RefitCertificate with barycentric weights, metres.
+
+    /// The nearest bind position that can be stored.
+    [[nodiscard]] Vec3d stored(const Vec3d& of) const {
+      return Vec3d((of - morph).cast<float>().cast<double>()) + morph;
+    }
   };
   /// An operation that created points.
   struct OfOperation {
@@ -68,8 +77,8 @@ struct RefitTask {
   std::atomic<bool> is_cancelled = false;
 
  private:
-  [[nodiscard]] Result<std::vector<PointFit>> fit(Index skin) const;
-  void keep_bound(std::vector<PointFit>& fits);
+  void certify(RefitCertificate& certificate);
+  [[nodiscard]] Result<std::vector<PointFit>> fit(Index skin, RefitCertificate& certificate) const;
   void store(const std::vector<PointFit>& fits);
 };
 

@@ -9,8 +9,9 @@
 
 namespace sunder {
 
-/// The largest acceptable amplification: an offset in bind space may become at most this many times
-/// as large in another pose as the error that it removes in this pose.
+/// The largest acceptable amplification, as a mean over directions: how many times as large an
+/// offset in bind space may become in another pose as the error that it removes in this pose. In
+/// the worst direction rotations may amplify it sqrt(3) times as much.
 inline constexpr double kLargestAmplification = 10.0;
 
 /// The bind position that linear blend skinning maps to a given posed position: M^-1 p with M =

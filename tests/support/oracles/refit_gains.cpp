@@ -19,6 +19,8 @@ constexpr int kPosesOfClip = 12;
 constexpr int kRandomPoses = 200;
 /// Smaller errors, as shares of the diagonal, are rounding: positions are stored in float.
 constexpr double kNothing = 2e-7;
+/// A lower gain is a loss.
+constexpr double kLeastGain = 1 - 1e-9;
 
 template <class T>
 T value_or_abort(Result<T> result) {
@@ -118,6 +120,11 @@ double RefitGains::least() const {
   double least = 1e300;
   for (const GroupGain& group : groups) least = std::min(least, group.gain);
   return least;
+}
+
+std::size_t RefitGains::lost() const {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(groups, [](const GroupGain& group) { return group.gain < kLeastGain; }));
 }
 
 double RefitGains::median(GroupGain::Kind kind, double GroupGain::*gain) const {

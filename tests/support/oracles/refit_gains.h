@@ -29,6 +29,8 @@ struct RefitGains {
   std::vector<GroupGain> groups;
 
   [[nodiscard]] double least() const;
+  /// The number of groups over which the fits are worse than barycentric weights.
+  [[nodiscard]] std::size_t lost() const;
   /// The median over the groups of a kind that have an error; 0 without any.
   [[nodiscard]] double median(GroupGain::Kind kind,
                               double GroupGain::*gain = &GroupGain::gain) const;
