@@ -8,6 +8,7 @@
 #include "io/assimp/convert_animations.h"
 #include "io/assimp/convert_meshes.h"
 #include "io/assimp/failure.h"
+#include "io/assimp/fbx_nodes.h"
 #include "io/assimp/importer_log.h"
 #include "io/assimp/model_space.h"
 #include "io/assimp/read_scene.h"
@@ -46,6 +47,8 @@ ImportedGlb read_and_convert(const ModelFile& model, AssetFiles& assets,
   const aiScene& scene = *read.scene;
 
   Notes notes;
+  // The scene is the importer's, which is not const.
+  if (extension == "fbx") take_fbx_transforms(const_cast<aiScene&>(scene), model, notes);
   note_losses_of_importer(read, notes);
   const ModelSpace space = model_space_of(scene, extension, notes);
   ImportedGlb result;

@@ -127,8 +127,7 @@ ReadScene read_scene(Assimp::Importer& importer, const ModelFile& model, const F
                                         model.name.c_str())};
   auto* const system = new AssetIOSystem(model, assets);  // The importer takes ownership.
   importer.SetIOHandler(system);
-  // Pivots stay separate nodes, which is exact; collapsing them loses animation (assimp issues
-  // 1068, 4005).
+  // Pivots stay separate nodes, by which take_fbx_transforms() recognises the models.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, true);
   // Do not create a mesh around the bones of a file without meshes.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);

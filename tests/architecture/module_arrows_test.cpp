@@ -72,6 +72,7 @@ const std::map<std::string, std::set<std::string>> kThirdParties = {
 const std::map<std::string, std::set<std::string>> kThirdPartyOfRoom = {
     {"binding", {"unsupported"}},  // the tree of boxes in Eigen's package
     {"io/compression", {"draco", "meshoptimizer.h"}},
+    {"io/fbx", {"zlib.h"}},
     {"io/import_helper", {"seccomp.h"}},
     {"particles/bullet", {"BulletCollision", "BulletDynamics"}},
     {"tools/render", {"embree3", "jpeglib.h", "png.h", "zlib.h"}},
