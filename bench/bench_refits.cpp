@@ -1,5 +1,6 @@
 // Compares refits with other ways to fit weights to example poses, on the same points and poses.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
