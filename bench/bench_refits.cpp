@@ -1,5 +1,6 @@
 // Compares refits with other ways to fit weights to example poses, on the same points and poses.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -102,11 +103,11 @@ int run(int random_rigs, int seeds) {
   std::printf(
       "%zu rigs, %d seeds, %zu points. Gains, quartiles over rigs; mean ± standard deviation "
       "over seeds.\n\n"
-      "| method | clips of the fit, median | held-out clips: 25 %% | median | 75 %% | held-out clips "
+      "| method | clips of the fit, median | held-out clips: 25 %% | median | 75 %% | held-out "
+      "clips "
       "that lose, %% | least gain over one | time / refit |\n|---|---|---|---|---|---|---|---|\n",
       all.front().rigs.size(), seeds, points);
-  for (std::size_t method = 0; method < method_names().size(); ++method)
-    print_method(all, method);
+  for (std::size_t method = 0; method < method_names().size(); ++method) print_method(all, method);
   return 0;
 }
 

@@ -58,8 +58,8 @@ class Contest {
     std::vector<PosedPoints> held_out;
     for (const std::uint32_t clip : held_out_) held_out.push_back(posed(clip_poses(clip)));
     const auto& state = tear::ModelAccess::state_of(*model_);
-    const auto neighbours = tear::find_neighbours(
-        task_->assignment, state.history.done().front()->begin, state.editor);
+    const auto neighbours =
+        tear::find_neighbours(task_->assignment, state.history.done().front()->begin, state.editor);
     const PointsToFit of{task_->points, start, neighbours, fitted, kInfluences};
     const std::function<std::vector<PointSkin>()> methods[] = {
         [&] {
@@ -127,9 +127,9 @@ class Contest {
     std::vector<PointSkin> skins;
     for (std::size_t i = 0; i < task_->points.size(); ++i) {
       const std::span<const Influence> influences = task_->barycentric(i);
-      skins.push_back({{influences.begin(), influences.end()},
-                       Vec3d(task_->assignment.points[i].position.cast<double>()) +
-                           task_->points[i].morph});
+      skins.push_back(
+          {{influences.begin(), influences.end()},
+           Vec3d(task_->assignment.points[i].position.cast<double>()) + task_->points[i].morph});
     }
     return skins;
   }
@@ -211,9 +211,9 @@ class Contest {
 }  // namespace
 
 const std::vector<std::string>& method_names() {
-  static const std::vector<std::string> names = {
-      "refit", "in turns, largest effects (SSDR)", "in turns, smallest weight first",
-      "differences of neighbours (Poisson)"};
+  static const std::vector<std::string> names = {"refit", "in turns, largest effects (SSDR)",
+                                                 "in turns, smallest weight first",
+                                                 "differences of neighbours (Poisson)"};
   return names;
 }
 

@@ -13,9 +13,9 @@ namespace sunder::bench {
 /// these clips alone: the root mean square error of barycentric weights divided by that of the
 /// fits.
 struct MethodGain {
-  double fitted = 1;     ///< Over the poses of the fit.
-  double held_out = 1;   ///< Over the clips that were not fitted.
-  double least_clip = 1; ///< The least over one of these.
+  double fitted = 1;                      ///< Over the poses of the fit.
+  double held_out = 1;                    ///< Over the clips that were not fitted.
+  double least_clip = 1;                  ///< The least over one of these.
   std::size_t clips = 0, clips_lost = 0;  ///< Clips that were not fitted; those with a loss.
   double seconds = 0;
 };

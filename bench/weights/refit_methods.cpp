@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include <Eigen/Dense>
 
@@ -148,9 +149,8 @@ void take_turns(const PointsToFit& of, std::size_t point, WeightProblem& problem
   const std::vector<double> before = problem.weights_of(of.barycentric[point].influences);
   double value = 1e300;
   for (int turn = 0; turn < kMostTurns; ++turn) {
-    problem.begin(of.poses, skin, fit.position, before, [&](std::size_t p) -> Eigen::Vector3d {
-      return of.poses.poses[p].exact[point];
-    });
+    problem.begin(of.poses, skin, fit.position, before,
+                  [&](std::size_t p) -> Eigen::Vector3d { return of.poses.poses[p].exact[point]; });
     problem.solve(weights, allowed);
     fit.influences = problem.influences_of(weights);
     fit.position = best_position(of.poses, point, skin, fit);

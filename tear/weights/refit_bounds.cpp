@@ -67,8 +67,8 @@ void RefitBounds::allow(std::size_t point, std::size_t group) {
 }
 
 /// Reduces the slack of a point over a group until it allows less than a loss.
-/// @return false if there was no slack any more, or none at all allows that loss still: it is within
-/// rounding.
+/// @return false if there was no slack any more, or none at all allows that loss still: it is
+/// within rounding.
 bool RefitBounds::lower(std::size_t point, std::size_t group, double loss) {
   const std::size_t at = point * groups_ + group;
   if (level_[at] == kNoSlack) return false;

@@ -37,8 +37,7 @@ Outcome refit_rig(std::uint64_t seed, const RefitOptions& options, std::uint32_t
   for (int i = 0; i < kTears; ++i) {
     const auto clips = static_cast<std::uint32_t>(source->clips.size());
     const std::uint32_t clip = random.index(clips);
-    const double time =
-        random.uniform(0, 1) * static_cast<double>(source->clips[clip].duration);
+    const double time = random.uniform(0, 1) * static_cast<double>(source->clips[clip].duration);
     const ModelPose pose = *make_pose(*source, ClipPose{clip, time});
     EXPECT_TRUE(model.tear(pose, test::random_stroke(*source, pose, random)));
   }

@@ -76,8 +76,8 @@ class FittedPoints {
     for (const auto& [of, squares] : squares_) {
       const auto count =
           static_cast<double>(std::ranges::count(points_, of.first, &FittedPoint::operation));
-      groups.push_back({of.first, of.second, std::sqrt(squares[0] / count),
-                        std::sqrt(squares[1] / count)});
+      groups.push_back(
+          {of.first, of.second, std::sqrt(squares[0] / count), std::sqrt(squares[1] / count)});
     }
     return groups;
   }
@@ -162,10 +162,8 @@ std::vector<FittedGroup> refit_and_measure(TornModel& model, const WeightsOperat
 }
 
 std::size_t count_lost(const std::vector<FittedGroup>& groups, double nothing) {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(groups, [&](const FittedGroup& group) {
-        return group.gain(nothing) < kLeastGain;
-      }));
+  return static_cast<std::size_t>(std::ranges::count_if(
+      groups, [&](const FittedGroup& group) { return group.gain(nothing) < kLeastGain; }));
 }
 
 }  // namespace sunder::test

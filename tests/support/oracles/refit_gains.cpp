@@ -123,8 +123,8 @@ double RefitGains::least() const {
 }
 
 std::size_t RefitGains::lost() const {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(groups, [](const GroupGain& group) { return group.gain < kLeastGain; }));
+  return static_cast<std::size_t>(std::ranges::count_if(
+      groups, [](const GroupGain& group) { return group.gain < kLeastGain; }));
 }
 
 double RefitGains::median(GroupGain::Kind kind, double GroupGain::*gain) const {
