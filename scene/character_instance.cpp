@@ -4,9 +4,9 @@
 #include <new>
 #include <utility>
 
-#include "scene/snapshot/check_pose.h"
 #include "scene/actor/piece_tissue.h"
 #include "scene/instance_state.h"
+#include "scene/snapshot/check_pose.h"
 
 namespace sunder {
 namespace {

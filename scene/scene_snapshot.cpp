@@ -186,8 +186,7 @@ Status check_header(std::span<const std::byte> snapshot) {
 /// Writes the checksum into a snapshot that is complete.
 void seal(std::vector<std::byte>& snapshot) {
   const std::uint64_t checksum = checksum_of(std::span(snapshot).subspan(kHeaderBytes));
-  for (std::size_t i = 0; i < 8; ++i)
-    snapshot[8 + i] = static_cast<std::byte>(checksum >> (8 * i));
+  for (std::size_t i = 0; i < 8; ++i) snapshot[8 + i] = static_cast<std::byte>(checksum >> (8 * i));
 }
 
 }  // namespace

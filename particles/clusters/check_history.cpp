@@ -52,7 +52,8 @@ class UndoneStructure {
   /// Undoes an operation, and checks the particles that it changed. The others were checked, and
   /// lost no neighbour unless that one changed too.
   [[nodiscard]] bool undo(const Change& change) {
-    for (std::size_t point = change.points; point < slabs_.size(); ++point) count(slabs_[point], -1);
+    for (std::size_t point = change.points; point < slabs_.size(); ++point)
+      count(slabs_[point], -1);
     slabs_.resize(change.points);
     lips_.resize(change.points);
     for (auto of = change.changed_points.rbegin(); of != change.changed_points.rend(); ++of) {
@@ -93,9 +94,8 @@ class UndoneStructure {
     return are_same(slabs_, decomposition.points.slabs, is_same_slab) &&
            std::ranges::equal(particles_, decomposition.particles, is_same_particle) &&
            vertices_ == decomposition.vertex_points.of_mesh &&
-           std::ranges::all_of(lips_, [](const LipPoint& lip) {
-             return lip.tear == kNone && lip.edge == kNone;
-           });
+           std::ranges::all_of(
+               lips_, [](const LipPoint& lip) { return lip.tear == kNone && lip.edge == kNone; });
   }
 
  private:

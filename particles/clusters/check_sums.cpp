@@ -81,9 +81,9 @@ Status check_cells(Structure& structure, const TornModel& model) {
                  place = norm(Vec3d(structure.points.positions[of.seed].cast<double>()));
     const bool is_alike =
         std::abs(kept[p].area - of.area) <= kAreaRounding * (kept[p].area + range * range) &&
-        std::ranges::equal(
-            kept[p].neighbours, of.neighbours,
-            [&](const auto& a, const auto& b) { return are_alike(a, b, range, place); });
+        std::ranges::equal(kept[p].neighbours, of.neighbours, [&](const auto& a, const auto& b) {
+          return are_alike(a, b, range, place);
+        });
     if (!is_alike) return differs("a cell is another one than its points say", p);
     for (const ParticleNeighbour& neighbour : of.neighbours) {
       const double coupling = coupling_of(structure, p, neighbour);

@@ -196,9 +196,9 @@ void describe_front(Tape& tape, RepairScratch& of, const Band& band, Index point
   // others have what an earlier band left there.
   const auto check = [&](Index point) {
     const BesideLip beside = of.beside[point];
-    tape.require(beside.chain < band.chains.size() &&
-                     beside.place < band.chains[beside.chain].places.size(),
-                 "a point is beside a chain that does not exist");
+    tape.require(
+        beside.chain < band.chains.size() && beside.place < band.chains[beside.chain].places.size(),
+        "a point is beside a chain that does not exist");
   };
   of.band_front.for_each_start(check);
   of.band_front.for_each_met([&](Index point) {

@@ -30,8 +30,8 @@ StateBounds::StateBounds(const Structure& decomposition, const TornModel& model)
   }
   for (Index m = 0; m < model.character().meshes.size(); ++m) {
     const Mesh& mesh = model.character().meshes[m];
-    member = std::max({member, largest_of(mesh.positions),
-                       largest_of(model.influence_positions(m).positions)});
+    member = std::max(
+        {member, largest_of(mesh.positions), largest_of(model.influence_positions(m).positions)});
     for (const MorphTarget& target : mesh.morph_targets)
       morph = std::max(morph, largest_of(target.position_deltas));
     for (const auto& target : model.influence_positions(m).morph_targets)
@@ -49,7 +49,8 @@ bool StateBounds::fits_members(const Particle& particle) const {
   const double count = particle.member_count + 1.0;
   double weights = 0;
   for (const RestTerm& term : particle.terms) {
-    if (!is_at_most(term.sum.head<3>(), count * member) || term.sum.w() < -kRecordedSumError * count)
+    if (!is_at_most(term.sum.head<3>(), count * member) ||
+        term.sum.w() < -kRecordedSumError * count)
       return false;
     weights += term.sum.w();
   }

@@ -129,7 +129,8 @@ void PoseMemory::transfer_pose(SnapshotReader& reader, ModelPose& pose) {
     number = static_cast<std::remove_reference_t<decltype(number)>>(std::bit_cast<double>(bits));
   });
   if (reader.has_failed()) return;
-  if (!check_pose(*character_, previous_)) return reader.fail("a number of a pose is out of its range");
+  if (!check_pose(*character_, previous_))
+    return reader.fail("a number of a pose is out of its range");
   pose = previous_;
 }
 

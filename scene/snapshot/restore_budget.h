@@ -24,12 +24,12 @@ class RestoreBudget {
   }
   [[nodiscard]] Status take_operations(std::size_t found) {
     if (found > operations_)
-      return Status::failure(StatusCode::limit_exceeded, kNone,
-                             "the snapshot has %llu operations or more; RestoreOptions::operations "
-                             "allows %llu",
-                             static_cast<unsigned long long>(options_.operations - operations_ +
-                                                             found),
-                             static_cast<unsigned long long>(options_.operations));
+      return Status::failure(
+          StatusCode::limit_exceeded, kNone,
+          "the snapshot has %llu operations or more; RestoreOptions::operations "
+          "allows %llu",
+          static_cast<unsigned long long>(options_.operations - operations_ + found),
+          static_cast<unsigned long long>(options_.operations));
     operations_ -= found;
     return {};
   }

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/internal/ordered.h"
-#include "tear/model/model_access.h"
 #include "tear/contact/searches.h"
+#include "tear/model/model_access.h"
 #include "tear/operation/cut.h"
 #include "tear/operation/drill.h"
 

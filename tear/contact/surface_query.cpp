@@ -6,8 +6,8 @@
 #include "core/internal/out_of_memory.h"
 #include "tear/contact/anchor.h"
 #include "tear/contact/describe_contact.h"
-#include "tear/model/model_access.h"
 #include "tear/contact/searches.h"
+#include "tear/model/model_access.h"
 
 namespace sunder {
 namespace {

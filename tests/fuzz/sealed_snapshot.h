@@ -8,7 +8,8 @@
 
 namespace sunder::fuzz {
 
-/// Bytes of a snapshot with the checksum that they need, as whoever changes one on purpose makes it.
+/// Bytes of a snapshot with the checksum that they need, as whoever changes one on purpose makes
+/// it.
 inline std::vector<std::byte> sealed(std::vector<std::byte> snapshot) {
   constexpr std::size_t kChecksumAt = 8, kHeaderBytes = 16;
   if (snapshot.size() < kHeaderBytes) return snapshot;

@@ -221,9 +221,8 @@ StateArrays damaged(StateArrays state, Random& random) {
     const auto count = static_cast<std::uint32_t>(values.size());
     if (count == 0) return;
     auto& value = values[random.index(count)];
-    value = random.index(3) == 0
-                ? values[random.index(count)]
-                : static_cast<std::remove_reference_t<decltype(value)>>(odd);
+    value = random.index(3) == 0 ? values[random.index(count)]
+                                 : static_cast<std::remove_reference_t<decltype(value)>>(odd);
   };
   switch (random.index(8)) {
     case 0:
@@ -231,7 +230,9 @@ StateArrays damaged(StateArrays state, Random& random) {
     case 2:
     case 3: replace(state.doubles, kNumbers[random.index(7)]); break;
     case 4: replace(state.numbers, kOdd[random.index(7)]); break;
-    case 5: state.indices[random.index(static_cast<std::uint32_t>(state.indices.size()))] += 1; break;
+    case 5:
+      state.indices[random.index(static_cast<std::uint32_t>(state.indices.size()))] += 1;
+      break;
     default: replace(state.indices, kOdd[random.index(7)]);
   }
   return state;

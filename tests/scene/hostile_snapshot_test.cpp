@@ -100,7 +100,7 @@ TEST(hostile_snapshot, numbers_of_all_parts_are_checked) {
     const Bytes good =
         value_of((is_rich ? fuzz::make_rich_scene(assets) : fuzz::make_torn_scene(assets)).save());
     ASSERT_TRUE(try_snapshot(good, assets, 0));
-    for (int i = 0; i < test::stressed(1500, 50000); ++i) {
+    for (int i = 0; i < test::stressed(1000, 50000); ++i) {
       SCOPED_TRACE(i);
       const auto seed = static_cast<std::uint64_t>(i);
       test::Random random(seed);

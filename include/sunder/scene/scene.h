@@ -63,7 +63,8 @@ struct SpawnOptions {
 struct RestoreOptions {
   TornCapacity capacity;             ///< Of each instance; that of the saved one is not kept.
   std::uint32_t instances = 65'536;  ///< Places for instances, also those that are free.
-  std::uint64_t operations = 65'536;  ///< Done and undone ones of all instances, replayed one by one.
+  std::uint64_t operations =
+      65'536;  ///< Done and undone ones of all instances, replayed one by one.
   /// Bytes of all instances, as memory_bytes() counts them; while one is read, about as much again.
   std::size_t memory = std::size_t{1} << 31u;
 };

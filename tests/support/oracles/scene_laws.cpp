@@ -52,7 +52,8 @@ std::vector<std::string> broken_scene(Scene& scene, bool checks_cells) {
           break;
         }
     if (instance.particles() == nullptr || instance.particles()->is_broken()) continue;
-    for (const std::string& fault : broken_particles(*instance.model(), *instance.particles(), checks_cells))
+    for (const std::string& fault :
+         broken_particles(*instance.model(), *instance.particles(), checks_cells))
       faults.push_back(say("instance ", id.slot, ": ", fault));
   }
   return faults;
@@ -65,7 +66,8 @@ std::vector<std::string> play_on(Scene& scene, Random& random) {
       if (step >= 0)
         (void)scene.submit(id, command(std::as_const(scene).find(id)->character(), step, random));
     (void)scene.update(kFrame);
-    if (std::vector<std::string> faults = broken_scene(scene, step < 0); !faults.empty()) return faults;
+    if (std::vector<std::string> faults = broken_scene(scene, step < 0); !faults.empty())
+      return faults;
   }
   return {};
 }
