@@ -69,7 +69,7 @@ Status CharacterInstance::State::require_drawn() {
     parts->palettes.push_back(std::move(*made));
   }
   parts->meshes.reserve(source.meshes.size());
-  const Index room = capacity.operations == kNone ? 0 : capacity.vertices;  // not of a mere limit
+  const Index room = capacity.is_fixed() ? capacity.vertices : 0;
   for (Index m = 0; m < source.meshes.size(); ++m)
     parts->meshes.emplace_back(shared().meshes[m], source.meshes[m].vertex_count(), room,
                                shared().options.unit_length);

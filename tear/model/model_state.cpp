@@ -23,7 +23,7 @@ TornModel::State::State(std::shared_ptr<const Character> from, tear::Surface sur
       editor(*source, character, std::move(surface)) {
   posed.forest().share(trees);
   if (cells) editor.changed_cells.share(std::move(cells));
-  editor.reserve(tear::is_limit(capacity) ? TornCapacity{} : capacity);
+  editor.reserve(capacity);
   untorn_ = editor.mark();
   if (!editor.room.is_fixed()) return;
   pose.model_from_bone.resize(character.skeleton.bones.size());

@@ -13,14 +13,19 @@ namespace sunder {
 /// and not undone. With a fixed capacity the memory for tears is allocated at the start, and an
 /// operation without room changes nothing and returns capacity_exceeded. A cut across n faces
 /// appends about 2 n vertices and triangles; where it removes large areas it may allocate.
+///
+/// With `operations` = kNone, vertices and triangles are limits alone, for operations of strangers:
+/// nothing is allocated at the start, and the model grows as needed up to the limits, which are
+/// checked after each segment of a stroke and after each other operation.
 struct TornCapacity {
   std::uint32_t vertices = 0;   ///< Per mesh.
   std::uint32_t triangles = 0;  ///< Per mesh.
-  std::uint32_t operations = 0;
+  std::uint32_t operations = 0;  ///< kNone: any number.
 
-  /// All zero: the model grows as needed, and an operation allocates where it has to grow.
+  /// Whether memory is allocated at the start. All zero: the model grows as needed, and an
+  /// operation allocates where it has to grow.
   [[nodiscard]] constexpr bool is_fixed() const {
-    return vertices > 0 || triangles > 0 || operations > 0;
+    return operations != kNone && (vertices > 0 || triangles > 0 || operations > 0);
   }
 
   bool operator==(const TornCapacity&) const = default;
