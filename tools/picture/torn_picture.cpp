@@ -200,8 +200,7 @@ Status draw_torn(const LoadedCharacter& loaded, std::span<const Operation> histo
     messages.warn(png.string() + ": " + missing);
   RenderScene scene = make_torn_scene({torn, *closed, open, wounds}, *looks, kThickness * diagonal);
   add_robot(*beside, *looks, scene);
-  // A cut is seen from its side, where its pieces are apart.
-  if (cut == nullptr) frame = see_wound(scene, frame);
+  if (cut == nullptr) frame = see_wound(scene, frame);  // A cut is seen along its plane.
   // The picture of a cut shows its pieces, that of a bore its surroundings.
   const double margin = cut != nullptr                                   ? 3.1
                         : std::holds_alternative<DrillOperation>(newest) ? 2.4

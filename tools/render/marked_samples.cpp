@@ -54,6 +54,13 @@ bool contains(const std::vector<Vec2d>& corners, const Vec2d& place) {
   return is_left != is_right;
 }
 
+/// Whether a mark at a depth is not behind what is visible, which it then becomes if it is opaque.
+bool comes_first(double depth, const RenderMark& mark, float& visible) {
+  if (depth > (1 + kOnSurface) * static_cast<double>(visible)) return false;
+  if (mark.color.w() >= 1) visible = static_cast<float>(depth);
+  return true;
+}
+
 void lay(const RenderMark& mark, SampledPart& part) {
   if (mark.corners.size() < 3) return;
   Vec2d least = mark.corners[0], greatest = least;
@@ -77,11 +84,8 @@ void lay(const RenderMark& mark, SampledPart& part) {
         if (!contains(mark.corners, place)) continue;
         const std::size_t sample =
             static_cast<std::size_t>(y * part.width + x) * part.places.size() + s;
-        if (!mark.depths.empty()) {
-          const double here = depth.at(place);
-          if (here > (1 + kOnSurface) * static_cast<double>(part.depths[sample])) continue;
-          if (mark.color.w() >= 1) part.depths[sample] = static_cast<float>(here);
-        }
+        if (!mark.depths.empty() && !comes_first(depth.at(place), mark, part.depths[sample]))
+          continue;
         Vec3f& below = part.colors[sample];
         below += mark.color.w() * (color - below);
       }
