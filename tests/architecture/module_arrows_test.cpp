@@ -100,7 +100,7 @@ const std::set<std::string> kStandardHeaders = words_of(R"(
     typeinfo unordered_map unordered_set utility valarray variant vector version assert.h ctype.h
     errno.h float.h limits.h math.h stdarg.h stddef.h stdint.h stdio.h stdlib.h string.h time.h)");
 
-const std::set<std::string> kOperatingSystemHeaders = {"dlfcn.h",  "fcntl.h", "poll.h",
+const std::set<std::string> kOperatingSystemHeaders = {"dlfcn.h",  "fcntl.h", "grp.h",   "poll.h",
                                                        "signal.h", "spawn.h", "unistd.h"};
 
 /// The reason why `file`, of `module`, may not have this include; empty if it may.
@@ -146,7 +146,7 @@ std::string fault(const std::string& module, const std::string& file, bool is_pu
       own != kThirdPartyOfFile.end() && own->second.count(first) != 0)
     return {};
   if (kMayUseOperatingSystem.count(module) != 0 &&
-      (first == "sys" || kOperatingSystemHeaders.count(include.path) != 0))
+      (first == "sys" || first == "linux" || kOperatingSystemHeaders.count(include.path) != 0))
     return {};
   return module + "/ may not use this third party";
 }

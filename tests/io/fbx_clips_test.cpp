@@ -126,8 +126,9 @@ std::vector<Evaluated> evaluate(const FbxFile& file, const FbxTake* take, double
 
 ModelPose pose_of(const Character& character, int clip, double seconds) {
   Pose pose = *local_rest_pose(character);
-  if (clip >= 0)
+  if (clip >= 0) {
     EXPECT_TRUE(sample_clip(character.clips[static_cast<std::size_t>(clip)], seconds, pose));
+  }
   ModelPose model_pose;
   EXPECT_TRUE(compute_model_pose(character.skeleton, pose, model_pose));
   return model_pose;

@@ -247,9 +247,6 @@ TEST_F(UrdfMeshes, one_mesh_that_is_shown_very_often_is_refused) {
       load_robot(folder_.write("robot.urdf", robot_with(500)), RobotLoadOptions(), &findings_);
   EXPECT_EQ(loaded.error().code(), StatusCode::limit_exceeded);
   EXPECT_THAT(findings_, Contains(Field(&RobotFinding::code, "shapes_too_large")));
-  RobotLoadOptions options;  // on request there is more
-  options.meshes.maximum_memory = std::uint64_t{1} << 30;
-  EXPECT_TRUE(load_robot(folder_.path() / "robot.urdf", options));
 }
 
 TEST_F(UrdfMeshes, colours_come_from_the_urdf_unless_the_mesh_has_its_own) {

@@ -30,6 +30,11 @@ endif()
 
 include(${SUNDER_SOURCE}/tests/package/needed.cmake)
 check_needed(${prefix} ${SUNDER_SOURCE}/THIRD_PARTY.md)
+include(${SUNDER_SOURCE}/tests/package/hardening.cmake)
+if(WITH_HARDENING AND NOT CXX_FLAGS MATCHES "sanitize")
+  string(REGEX MATCH "Rel" optimised "${CONFIG}")
+  check_hardening(${prefix} "${optimised}")
+endif()
 
 # The installed command finds the installed helper executable.
 find_program(command sunder PATHS ${prefix}/bin NO_DEFAULT_PATH)
