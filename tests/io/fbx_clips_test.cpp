@@ -5,7 +5,9 @@
 #include <sunder/skinning/pose.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 #include <sstream>
 #include <string>
@@ -330,6 +332,86 @@ TEST(FbxClips, a_take_before_time_zero_keeps_all_its_keys) {
   for (const LoadNote& note : loaded->report.notes)
     EXPECT_EQ(note.kind, LoadNote::Kind::information) << note.text;
   expect_clips_match(file, "early");
+}
+
+// ---- Another reader.
+
+/// From the file's units and axes, which three leaves as they are.
+Affine3d model_from_file(const Character& character) {
+  for (const Bone& bone : character.skeleton.bones)
+    if (bone.name == "model_from_file")
+      return Eigen::Translation3d(Eigen::Vector3d(bone.rest.translation.cast<double>())) *
+             Affine3d(bone.rest.rotation.cast<double>().toRotationMatrix() *
+                      bone.rest.scale.cast<double>().asDiagonal());
+  return Affine3d::Identity();
+}
+
+/// Compares all nodes whose names are those of one bone, relative to the size of the skeleton.
+/// @param left_out  a take that three poses another way.
+void expect_three_agrees(const std::filesystem::path& file, double tolerance,
+                         const std::string& left_out = "") {
+  const auto loaded = load_character(file);
+  ASSERT_TRUE(loaded) << file << loaded.error().text();
+  const Character& character = *loaded->character;
+  const Affine3d ours_from_theirs = model_from_file(character);
+  ASSERT_FALSE(character.clips.empty()) << file;
+  for (std::size_t c = 0; c < character.clips.size(); ++c) {
+    if (character.clips[c].name == left_out) continue;
+    const auto run = test::run_node_program("fbx_nodes.mjs", "'" + file.string() + "' '" +
+                                                                 character.clips[c].name + "'");
+    ASSERT_TRUE(run && run->succeeded) << file << (run ? run->output : "node does not start");
+    std::istringstream lines(run->output);
+    std::size_t count = 0;
+    double largest = 0.0, size = 0.0;
+    std::string worst;
+    for (std::string seconds, name, elements;
+         std::getline(lines, seconds, '\t') && std::getline(lines, name, '\t') &&
+         std::getline(lines, elements);) {
+      const auto& bones = character.skeleton.bones;
+      const auto bone = std::find_if(bones.begin(), bones.end(),
+                                     [&](const Bone& one) { return one.name == name; });
+      if (bone == bones.end()) continue;
+      Eigen::Matrix4d theirs;
+      std::istringstream numbers(elements);
+      for (int i = 0; i < 16; ++i) numbers >> theirs.data()[i];
+      const Affine3d expected = ours_from_theirs * Affine3d(theirs.topRows<3>());
+      const ModelPose pose = pose_of(character, static_cast<int>(c), std::stod(seconds));
+      const Affine3d ours = pose.model_from_bone[static_cast<std::size_t>(bone - bones.begin())];
+      size = std::max(size, ours.translation().norm());
+      // Where the origin and the ends of the axes go, axes as long as the skeleton is large.
+      const double off = (ours.translation() - expected.translation()).norm() +
+                         size * (ours.linear() - expected.linear()).norm() /
+                             std::max(expected.linear().norm(), 1e-30);
+      if (off > largest) worst = name + " at " + seconds;
+      largest = std::max(largest, off);
+      ++count;
+    }
+    EXPECT_GT(count, 3u) << run->output.substr(0, 500);
+    EXPECT_LT(largest, tolerance * size)
+        << file << ", take " << character.clips[c].name << ", node " << worst;
+  }
+}
+
+TEST(FbxClips, three_poses_nodes_the_same_way) {
+  if (!test::has_node_packages({"three"})) GTEST_SKIP() << "needs node and tests/npm";
+  const test::TemporaryFolder folder;
+  for (const std::uint64_t seed : {11u, 12u, 13u}) {
+    Random random(seed);
+    FbxFile file = random_file(random, {true, false, false});  // three animates without pivots.
+    for (FbxTake& take : file.takes)  // and takes components without a curve as zero.
+      for (FbxMotion& motion : take.motions)
+        for (auto* curves : {&motion.translation, &motion.rotation})
+          for (FbxCurve& curve : *curves) curve = {{take.start, random.uniform(-60.0, 60.0)}};
+    expect_three_agrees(folder.write("own.fbx", std::string_view(test::fbx_text(file))), 1e-3);
+  }
+  if (test::shared_models().empty()) return;
+  const std::filesystem::path strangers = test::shared_models().parent_path() / "strangers";
+  // three multiplies scales that the file's children do not inherit.
+  expect_three_agrees(test::shared_models() / "rigged/soft_tube_14bones.fbx", 1e-3);
+  const std::filesystem::path maya = strangers / "ufbx_maya_sausage_7500.fbx";
+  if (std::filesystem::exists(maya)) expect_three_agrees(maya, 1e-3, "deform");
+  const std::filesystem::path other = strangers / "mdb_simple_si_rig.fbx";
+  if (std::filesystem::exists(other)) expect_three_agrees(other, 1e-3);
 }
 
 TEST(FbxClips, nodes_are_the_models_of_the_file) {
