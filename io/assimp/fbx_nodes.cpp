@@ -29,9 +29,9 @@ struct ModelNodes {
 };
 
 [[noreturn]] void fail_to_match(const std::string& where) {
-  throw ImportFailure{Status::failure(StatusCode::internal_error, kNone,
-                                      "the importer's nodes are not the models of the file, at '%.100s'",
-                                      where.c_str())};
+  throw ImportFailure{Status::failure(
+      StatusCode::internal_error, kNone,
+      "the importer's nodes are not the models of the file, at '%.100s'", where.c_str())};
 }
 
 bool is_part_of(const aiNode& node, const std::string& model) {
@@ -66,7 +66,8 @@ std::vector<ModelNodes> match_all(const aiNode& root, const fbx::Scene& scene) {
       all[models[i]] = match(parent.mChildren[i], scene.models[models[i]].name);
   };
   match_children(root, scene.roots);
-  for (std::size_t i = 0; i < all.size(); ++i) match_children(*all[i].last, scene.models[i].children);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    match_children(*all[i].last, scene.models[i].children);
   return all;
 }
 
@@ -170,10 +171,12 @@ std::unique_ptr<aiNodeAnim> channel_of(const fbx::Track& track, const aiString& 
     return aiVector3D(static_cast<float>(v.x()), static_cast<float>(v.y()),
                       static_cast<float>(v.z()));
   };
-  write_keys(track, ticks_per_second, [&](const auto& place) { return vector(place.translation); },
-             channel->mPositionKeys, channel->mNumPositionKeys);
-  write_keys(track, ticks_per_second, [&](const auto& place) { return vector(place.scale); },
-             channel->mScalingKeys, channel->mNumScalingKeys);
+  write_keys(
+      track, ticks_per_second, [&](const auto& place) { return vector(place.translation); },
+      channel->mPositionKeys, channel->mNumPositionKeys);
+  write_keys(
+      track, ticks_per_second, [&](const auto& place) { return vector(place.scale); },
+      channel->mScalingKeys, channel->mNumScalingKeys);
   write_keys(
       track, ticks_per_second,
       [](const auto& place) {

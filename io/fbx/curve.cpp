@@ -10,7 +10,7 @@ namespace {
 // Bits of KeyAttrFlags.
 constexpr std::uint32_t kStep = 0x2, kCubic = 0x8;
 constexpr std::uint32_t kStepAtOnce = 0x100;  ///< Of a step: the next key's value holds at once.
-constexpr std::uint32_t kAutomatic = 0x100;   ///< Of a cubic: the slope follows from the neighbours.
+constexpr std::uint32_t kAutomatic = 0x100;  ///< Of a cubic: the slope follows from the neighbours.
 constexpr std::uint32_t kFlatAtEqual = 0x1000, kTimeIndependent = 0x2000, kNoOvershoot = 0x4000;
 constexpr std::uint32_t kRightWeighted = 0x1000000, kNextLeftWeighted = 0x2000000;
 constexpr double kWeightUnit = 1e-4;
@@ -108,10 +108,9 @@ double Curve::automatic_slope(std::size_t key) const {
   const double left_ticks = keys_[key].ticks - keys_[key - 1].ticks;
   const double right_ticks = keys_[key + 1].ticks - keys_[key].ticks;
   // Of the chord between the neighbours; otherwise the mean of both sides.
-  const double slope =
-      (flags & kTimeIndependent) != 0
-          ? (left * left_ticks + right * right_ticks) / (left_ticks + right_ticks)
-          : 0.5 * (left + right);
+  const double slope = (flags & kTimeIndependent) != 0
+                           ? (left * left_ticks + right * right_ticks) / (left_ticks + right_ticks)
+                           : 0.5 * (left + right);
   return (flags & kNoOvershoot) != 0 ? without_overshoot(slope, left, right) : slope;
 }
 

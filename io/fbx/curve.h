@@ -29,7 +29,7 @@ class Curve {
   struct Key {
     double ticks = 0.0, value = 0.0;
     std::uint32_t flags = 0;
-    Span span = Span::line;  ///< From this key to the next one.
+    Span span = Span::line;                           ///< From this key to the next one.
     double right_slope = 0.0, next_left_slope = 0.0;  ///< Per second.
     double right_weight = 1.0 / 3.0, next_left_weight = 1.0 / 3.0;
   };

@@ -16,8 +16,7 @@ constexpr std::array<std::array<int, 3>, 6> kAxes = {
 Quatd turn(const Vec3d& degrees, int order) {
   Quatd result = Quatd::Identity();
   for (const int axis : kAxes[static_cast<std::size_t>(order)])
-    result = Quatd(Eigen::AngleAxisd(degrees[axis] * std::numbers::pi / 180.0,
-                                     Vec3d::Unit(axis))) *
+    result = Quatd(Eigen::AngleAxisd(degrees[axis] * std::numbers::pi / 180.0, Vec3d::Unit(axis))) *
              result;
   return result;
 }
@@ -27,7 +26,8 @@ Vec3d angles_of(const Quatd& rotation, int order) {
   const auto& axes = kAxes[static_cast<std::size_t>(order)];
   const Vec3d reversed = rotation.toRotationMatrix().eulerAngles(axes[2], axes[1], axes[0]);
   Vec3d degrees;
-  for (int i = 0; i < 3; ++i) degrees[axes[static_cast<std::size_t>(2 - i)]] = reversed[i] * 180.0 / std::numbers::pi;
+  for (int i = 0; i < 3; ++i)
+    degrees[axes[static_cast<std::size_t>(2 - i)]] = reversed[i] * 180.0 / std::numbers::pi;
   return degrees;
 }
 
@@ -67,8 +67,8 @@ Local local_of(const Stack& stack) {
   // The stack applied to the origin, from the right.
   const Vec3d scaled = -stack.scaling.cwiseProduct(stack.scaling_pivot) + stack.scaling_pivot +
                        stack.scaling_offset - stack.rotation_pivot;
-  local.translation = local.rotation * scaled + stack.rotation_pivot + stack.rotation_offset +
-                      stack.translation;
+  local.translation =
+      local.rotation * scaled + stack.rotation_pivot + stack.rotation_offset + stack.translation;
   return local;
 }
 
@@ -143,8 +143,7 @@ Global Evaluator::global(std::uint32_t model, double ticks) const {
         global.shape = here.rotation.transpose() * global.shape * here.rotation * scale;
         break;
       case Inherit::no_scale:
-        global.shape = global.shape *
-                       Mat3d(parent_scale.cwiseInverse().asDiagonal()) * scale;
+        global.shape = global.shape * Mat3d(parent_scale.cwiseInverse().asDiagonal()) * scale;
         break;
     }
     global.rotation = global.rotation * here.rotation;

@@ -47,7 +47,7 @@ class Evaluator {
   [[nodiscard]] Stack stack_at(std::uint32_t model, double ticks) const;
 
   const Scene& scene_;
-  const Layer* lowest_ = nullptr;  ///< Its values replace those at rest.
+  const Layer* lowest_ = nullptr;              ///< Its values replace those at rest.
   std::vector<std::vector<Driven>> nodes_of_;  ///< Per model, the lowest layer first.
   std::vector<bool> is_below_scale_;           ///< Per model.
 };

@@ -2,7 +2,6 @@
 #include <cstring>
 #include <limits>
 #include <stdexcept>
-
 #include <zlib.h>
 
 #include "io/fbx/record.h"
@@ -57,8 +56,7 @@ class Reader {
   }
 
   std::size_t place() {
-    return is_wide_ ? static_cast<std::size_t>(number<std::uint64_t>())
-                    : number<std::uint32_t>();
+    return is_wide_ ? static_cast<std::size_t>(number<std::uint64_t>()) : number<std::uint32_t>();
   }
 
   std::string text(std::size_t count) {

@@ -32,7 +32,7 @@ struct Stack {
 struct Model {
   std::string name;
   Stack rest;
-  std::uint32_t parent = kNone;  ///< Smaller than the model's own index.
+  std::uint32_t parent = kNone;         ///< Smaller than the model's own index.
   std::vector<std::uint32_t> children;  ///< In the order of the file's connections.
 };
 
@@ -48,9 +48,9 @@ struct CurveNode {
 
 struct Layer {
   double weight = 1.0;
-  bool replaces = false;          ///< Otherwise it adds to the layers below.
-  bool adds_angles = false;       ///< Of the rotation; otherwise rotations are multiplied.
-  bool adds_scales = false;       ///< Of the scaling; otherwise scales are multiplied.
+  bool replaces = false;     ///< Otherwise it adds to the layers below.
+  bool adds_angles = false;  ///< Of the rotation; otherwise rotations are multiplied.
+  bool adds_scales = false;  ///< Of the scaling; otherwise scales are multiplied.
   std::vector<CurveNode> nodes;
 };
 

@@ -97,7 +97,8 @@ double largest_shear(const Scene& scene, const Places& rest, const std::vector<P
   double largest = rest.at(model, parent, 0.0).shear;
   for (std::size_t t = 0; t < takes.size(); ++t) {
     if (parent == scene.models[model].parent && takes[t].is_plain(model)) continue;
-    const auto moments = moments_of(scene, takes[t].evaluator(), model, true, span_of(scene.takes[t]));
+    const auto moments =
+        moments_of(scene, takes[t].evaluator(), model, true, span_of(scene.takes[t]));
     const std::size_t step = moments.size() / kMostMoments + 1;
     for (std::size_t i = 0; i < moments.size(); i += step)
       largest = std::max(largest, takes[t].at(model, parent, moments[i]).shear);

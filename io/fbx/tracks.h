@@ -31,8 +31,8 @@ struct NodeTree {
 };
 
 /// Chooses the parent of each node. It is the model's own parent, unless scales that are not
-/// inherited as by a product of matrices leave shear between the two, in the rest pose or in a take:
-/// then it is the nearest ancestor, or the root, without.
+/// inherited as by a product of matrices leave shear between the two, in the rest pose or in a
+/// take: then it is the nearest ancestor, or the root, without.
 [[nodiscard]] NodeTree make_tree(const Scene& scene);
 
 /// Samples a take: at its keys, and between them until interpolation is off by less than 1e-4 rad,

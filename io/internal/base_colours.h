@@ -20,9 +20,9 @@ struct BaseColour {
   /// KHR_texture_transform: where in the images a place (u, v, 1) of the texture coordinates is.
   Eigen::Matrix<float, 2, 3> image_from_uv = Eigen::Matrix<float, 2, 3>::Identity();
   Wrap wrap_u = Wrap::repeat, wrap_v = Wrap::repeat;
-  float cutoff = 0;             ///< Nothing is drawn where the image's alpha is below.
-  bool is_blended = false;      ///< Alpha mixes the surface with what is behind it.
-  bool is_unlit = false;        ///< KHR_materials_unlit.
+  float cutoff = 0;                      ///< Nothing is drawn where the image's alpha is below.
+  bool is_blended = false;               ///< Alpha mixes the surface with what is behind it.
+  bool is_unlit = false;                 ///< KHR_materials_unlit.
   Vec3f emission = Vec3f::Zero();        ///< Linear RGB, KHR_materials_emissive_strength included.
   std::uint32_t emission_image = kNone;  ///< In BaseColours::images; multiplied by `emission`.
   bool lacks_image = false;              ///< The file names one that is left out.

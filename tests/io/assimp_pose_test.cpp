@@ -1,5 +1,6 @@
 // Compares imported models, loaded and posed by our code, with assimp's own scene evaluated by the
-// definition: the whole chain of units, axes, binds, weights, keys and welding. FBX: fbx_clips_test.cpp.
+// definition: the whole chain of units, axes, binds, weights, keys and welding. FBX:
+// fbx_clips_test.cpp.
 
 #include <sunder/io/character_file.h>
 #include <sunder/skinning/deform.h>

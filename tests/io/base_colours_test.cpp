@@ -127,8 +127,10 @@ TEST_F(BaseColoursTest, have_alpha_emission_and_the_place_in_the_image) {
   Json& materials = builder_.json["materials"];
   materials[0]["alphaMode"] = "BLEND";
   Json& texture = materials[0]["pbrMetallicRoughness"]["baseColorTexture"];
-  texture["extensions"]["KHR_texture_transform"] = {
-      {"offset", {0.25, 0.5}}, {"rotation", 1.5707963267948966}, {"scale", {2, 4}}, {"texCoord", 3}};
+  texture["extensions"]["KHR_texture_transform"] = {{"offset", {0.25, 0.5}},
+                                                    {"rotation", 1.5707963267948966},
+                                                    {"scale", {2, 4}},
+                                                    {"texCoord", 3}};
   materials[1]["emissiveFactor"] = {1, 0.5, 0};
   materials[1]["emissiveTexture"] = {{"index", 0}};
   materials[1]["extensions"] = {{"KHR_materials_unlit", Json::object()},

@@ -99,10 +99,9 @@ std::vector<Evaluated> evaluate(const FbxFile& file, const FbxTake* take, double
     }
     const Matrix turn = turned(m.pre_rotation, 0) * turned(m.rotation, m.rotation_order) *
                         turned(m.post_rotation, 0).inverse();
-    const Matrix local = moved(m.translation) * moved(m.rotation_offset) *
-                         moved(m.rotation_pivot) * turn * moved(-m.rotation_pivot) *
-                         moved(m.scaling_offset) * moved(m.scaling_pivot) * scaled(m.scaling) *
-                         moved(-m.scaling_pivot);
+    const Matrix local = moved(m.translation) * moved(m.rotation_offset) * moved(m.rotation_pivot) *
+                         turn * moved(-m.rotation_pivot) * moved(m.scaling_offset) *
+                         moved(m.scaling_pivot) * scaled(m.scaling) * moved(-m.scaling_pivot);
     Evaluated parent{Matrix::Identity(), Matrix::Identity(), Matrix::Identity()};
     if (m.parent != kNone) parent = all[m.parent];
     Evaluated here{Matrix::Identity(), parent.turn * turn, scaled(m.scaling)};
@@ -155,8 +154,9 @@ double largest_difference(const Character& character, const FbxFile& file, int c
   double largest = 0.0;
   Eigen::AlignedBox3d box;
   for (std::size_t m = 0; m < file.models.size(); ++m) {
-    const auto mesh = std::find_if(character.meshes.begin(), character.meshes.end(),
-                                   [&](const Mesh& one) { return one.name == file.models[m].name; });
+    const auto mesh =
+        std::find_if(character.meshes.begin(), character.meshes.end(),
+                     [&](const Mesh& one) { return one.name == file.models[m].name; });
     if (mesh == character.meshes.end()) return HUGE_VAL;
     const std::vector<Vec3d> corners = corners_of(character, *mesh, pose);
     if (corners.size() != 3) return HUGE_VAL;
@@ -240,8 +240,10 @@ FbxFile random_file(Random& random, const Freedom& may) {
     model.translation = random_vector(random, 2.0);
     model.rotation = random_vector(random, 120.0);
     model.rotation_order = static_cast<int>(random.index(6));
-    if (may.has_rotations && random.index(2) == 0) model.pre_rotation = random_vector(random, 180.0);
-    if (may.has_rotations && random.index(3) == 0) model.post_rotation = random_vector(random, 90.0);
+    if (may.has_rotations && random.index(2) == 0)
+      model.pre_rotation = random_vector(random, 180.0);
+    if (may.has_rotations && random.index(3) == 0)
+      model.post_rotation = random_vector(random, 90.0);
     if (may.has_pivots && random.index(2) == 0) {
       model.rotation_pivot = random_vector(random, 1.0);
       model.rotation_offset = random_vector(random, 1.0);
@@ -268,7 +270,8 @@ FbxFile random_file(Random& random, const Freedom& may) {
       FbxMotion motion;
       motion.model = m;
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (random.index(3) == 0) motion.translation[axis] = random_curve(random, start, stop, -2, 2);
+        if (random.index(3) == 0)
+          motion.translation[axis] = random_curve(random, start, stop, -2, 2);
         if (random.index(4) != 0 || m == 0)
           motion.rotation[axis] = random_curve(random, start, stop, -200, 200);
       }
@@ -287,7 +290,8 @@ void expect_random_files_match(const Freedom& may, std::uint64_t seed) {
   const int cases = test::stressed(25, 12);
   for (int i = 0; i < cases; ++i) {
     Random random(seed + static_cast<std::uint64_t>(i));
-    expect_clips_match(random_file(random, may), "seed " + std::to_string(seed + static_cast<std::uint64_t>(i)));
+    expect_clips_match(random_file(random, may),
+                       "seed " + std::to_string(seed + static_cast<std::uint64_t>(i)));
     if (testing::Test::HasFatalFailure()) return;
   }
 }
@@ -357,16 +361,16 @@ void expect_three_agrees(const std::filesystem::path& file, double tolerance,
   ASSERT_FALSE(character.clips.empty()) << file;
   for (std::size_t c = 0; c < character.clips.size(); ++c) {
     if (character.clips[c].name == left_out) continue;
-    const auto run = test::run_node_program("fbx_nodes.mjs", "'" + file.string() + "' '" +
-                                                                 character.clips[c].name + "'");
+    const auto run = test::run_node_program(
+        "fbx_nodes.mjs", "'" + file.string() + "' '" + character.clips[c].name + "'");
     ASSERT_TRUE(run && run->succeeded) << file << (run ? run->output : "node does not start");
     std::istringstream lines(run->output);
     std::size_t count = 0;
     double largest = 0.0, size = 0.0;
     std::string worst;
-    for (std::string seconds, name, elements;
-         std::getline(lines, seconds, '\t') && std::getline(lines, name, '\t') &&
-         std::getline(lines, elements);) {
+    for (std::string seconds, name, elements; std::getline(lines, seconds, '\t') &&
+                                              std::getline(lines, name, '\t') &&
+                                              std::getline(lines, elements);) {
       const auto& bones = character.skeleton.bones;
       const auto bone = std::find_if(bones.begin(), bones.end(),
                                      [&](const Bone& one) { return one.name == name; });

@@ -82,8 +82,8 @@ TEST_F(HostileFolder, a_picture_touches_no_file_but_its_own) {
 TEST_F(HostileFolder, an_earlier_picture_survives_a_failure) {
   const fs::path models = folder("failure");
   std::ofstream(models / "out.png") << "earlier";
-  const CommandResult result = run_sunder(
-      {"picture", model(), "-o", (models / "out.png").string(), "--max-memory", "1"});
+  const CommandResult result =
+      run_sunder({"picture", model(), "-o", (models / "out.png").string(), "--max-memory", "1"});
   EXPECT_NE(result.exit_code, 0);
   EXPECT_EQ(text_of(models / "out.png"), "earlier") << result.err;
   EXPECT_EQ(content_of(models).size(), 1u);

@@ -32,8 +32,7 @@ void add_material(GltfBuilder& builder, std::size_t view) {
   json["images"].push_back({{"bufferView", view}, {"mimeType", "image/png"}});
   json["textures"].push_back({{"source", json["images"].size() - 1}});
   json["materials"].push_back(
-      {{"pbrMetallicRoughness",
-        {{"baseColorTexture", {{"index", json["textures"].size() - 1}}}}}});
+      {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", json["textures"].size() - 1}}}}}});
 }
 
 /// A small file may name one large image often, and others that are large together.

@@ -7,8 +7,8 @@ namespace sunder::command_test {
 namespace {
 
 using test::PixelBox;
-using testing::StartsWith;
 using test::Pixels;
+using testing::StartsWith;
 
 constexpr Pixels::Color kBackground = {237, 240, 242};
 // What the marks of docs/command.md look like.

@@ -8,8 +8,8 @@ namespace sunder::command_test {
 namespace {
 
 using test::GltfBuilder;
-using testing::StartsWith;
 using test::Pixels;
+using testing::StartsWith;
 using OrderedJson = nlohmann::ordered_json;
 
 using Texel = std::array<std::uint8_t, 4>;
@@ -41,8 +41,7 @@ void add_square(GltfBuilder& builder, float x, float z, const OrderedJson& mater
 
 /// A texture of 2 x 2 texels. @return its index.
 std::size_t add_texture(GltfBuilder& builder, const std::array<Texel, 4>& texels) {
-  const std::vector<std::byte> png =
-      test::make_png(2, 2, {texels.begin(), texels.end()});
+  const std::vector<std::byte> png = test::make_png(2, 2, {texels.begin(), texels.end()});
   std::vector<std::uint8_t> bytes;
   for (const std::byte byte : png) bytes.push_back(std::to_integer<std::uint8_t>(byte));
   builder.json["images"].push_back(

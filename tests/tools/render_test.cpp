@@ -227,21 +227,23 @@ TEST(TriangleTree, rays_pass_holes_and_nothing_else) {
       {Vec3f(-1, -1, 1), Vec3f(3, -1, 1), Vec3f(-1, 3, 1)},
       {Vec3f(-1, -1, 3), Vec3f(3, -1, 3), Vec3f(-1, 3, 3)}};
   std::vector<Index> asked;
-  const TriangleTree tree(triangles, {{false, true, true}, [&](Index triangle, const Vec3f& shares,
-                                                               TriangleTree::Ray ray) {
-                                        EXPECT_NEAR(shares[1], 0.25f, 1e-5f);
-                                        EXPECT_NEAR(shares[2], 0.25f, 1e-5f);
-                                        asked.push_back(triangle);
-                                        return triangle == 1 && ray == TriangleTree::Ray::sight;
-                                      }});
+  const TriangleTree tree(
+      triangles,
+      {{false, true, true}, [&](Index triangle, const Vec3f& shares, TriangleTree::Ray ray) {
+         EXPECT_NEAR(shares[1], 0.25f, 1e-5f);
+         EXPECT_NEAR(shares[2], 0.25f, 1e-5f);
+         asked.push_back(triangle);
+         return triangle == 1 && ray == TriangleTree::Ray::sight;
+       }});
   const Vec3f origin = Vec3f::Zero(), along = Vec3f::UnitZ();
   EXPECT_EQ(tree.first_hit(origin, along).triangle, 0u);
   EXPECT_NEAR(tree.first_hit(origin, along).distance, 2, 1e-5);
   EXPECT_TRUE(tree.is_blocked(origin, along, 1.5f));
   EXPECT_FALSE(tree.is_blocked(origin, along, 0.5f));
   EXPECT_NE(std::find(asked.begin(), asked.end(), Index{1}), asked.end());
-  EXPECT_EQ(TriangleTree(std::span<const TriangleTree::Corners>()).first_hit(origin, along).triangle,
-            kNone);
+  EXPECT_EQ(
+      TriangleTree(std::span<const TriangleTree::Corners>()).first_hit(origin, along).triangle,
+      kNone);
 }
 
 /// A square of 2 m at a height, facing up.
@@ -329,8 +331,7 @@ TEST(Trace, unlit_colours_and_emission_are_shown_without_light) {
   scene.materials[1].emission = Vec3f(0, 0.4f, 0);
   const Camera camera{{0, 6, 0.01}, {0, 0, 0}, {0, 0, -1}, 30};
   add_square(0, 1, 0, scene);
-  EXPECT_EQ(trace(scene, camera, {80, 60}).colors[30 * 80 + 40],
-            (Picture::Color{188, 137, 255}));
+  EXPECT_EQ(trace(scene, camera, {80, 60}).colors[30 * 80 + 40], (Picture::Color{188, 137, 255}));
   scene.triangles.clear();
   add_square(0, 1, 1, scene);
   const auto glowing = trace(scene, camera, {80, 60}).colors[30 * 80 + 40];
@@ -347,14 +348,13 @@ TEST(Trace, marks_lie_before_and_behind_surfaces_and_on_top) {
   add_square(0, 1, 0, scene);
   const Camera camera{{0, 6, 0.01}, {0, 0, 0}, {0, 0, -1}, 30};
   const auto mark = [](double left, std::vector<double> depths, const Vec4f& color) {
-    return RenderMark{{{left, 26}, {left + 8, 26}, {left + 8, 34}, {left, 34}},
-                      std::move(depths),
-                      color};
+    return RenderMark{
+        {{left, 26}, {left + 8, 26}, {left + 8, 34}, {left, 34}}, std::move(depths), color};
   };
   const Vec4f red(1, 0, 0, 1), green(0, 1, 0, 1), blue(0, 0, 1, 0.5f);
-  scene.marks = {mark(24, {5, 5, 5, 5}, red), mark(36, {7, 7, 7, 7}, red), mark(48, {}, green),
-                 mark(50, {}, blue), mark(52, {5, 5, 5, 5}, red),
-                 mark(8, {5, 7, 7, 5}, red)};
+  scene.marks = {mark(24, {5, 5, 5, 5}, red), mark(36, {7, 7, 7, 7}, red),
+                 mark(48, {}, green),         mark(50, {}, blue),
+                 mark(52, {5, 5, 5, 5}, red), mark(8, {5, 7, 7, 5}, red)};
   const Picture picture = trace(scene, camera, {80, 60});
   const auto at = [&](int x) { return picture.colors[static_cast<std::size_t>(30 * 80 + x)]; };
   EXPECT_EQ(at(28), (Picture::Color{255, 0, 0})) << "before the surface";

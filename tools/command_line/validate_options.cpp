@@ -29,7 +29,8 @@ CLI::App* add_validate(CLI::App& app, ValidateRequest& request) {
   verb->add_option("--html", request.html, "File for a page with both models, which opens offline")
       ->type_name("FILE");
   CLI::Option* const manifest =
-      verb->add_option("--manifest", request.manifest, "Many pairs, JSON; it names the files that are read and written, anywhere")
+      verb->add_option("--manifest", request.manifest,
+                       "Many pairs, JSON; it names the files that are read and written, anywhere")
           ->type_name("FILE");
   verb->add_option("--jobs", request.jobs, "Pairs of a manifest at a time")
       ->check(CLI::Range(1, 256))

@@ -126,8 +126,7 @@ ExitCode write_results(const DemoRequest& request, const std::string& place, con
 }
 
 ExitCode say_written(const std::filesystem::path& folder, const std::vector<std::string>& names) {
-  for (const std::string& name : names)
-    Messages(Verbosity::normal).say(written(folder / name));
+  for (const std::string& name : names) Messages(Verbosity::normal).say(written(folder / name));
   return ExitCode::ok;
 }
 

@@ -13,10 +13,9 @@
 
 namespace sunder::tools {
 
-constexpr double kTearFraction = 0.40;    ///< Time of the tear, as a fraction of the first clip.
-constexpr std::size_t kDemoSteps = 36;    ///< Of draw_demo(), for a progress bar.
-constexpr const char* kDemoPictures[] = {"motion",  "before",  "torn",
-                                         "wound",   "later_1", "later_2"};
+constexpr double kTearFraction = 0.40;  ///< Time of the tear, as a fraction of the first clip.
+constexpr std::size_t kDemoSteps = 36;  ///< Of draw_demo(), for a progress bar.
+constexpr const char* kDemoPictures[] = {"motion", "before", "torn", "wound", "later_1", "later_2"};
 
 /// The pose of a character at a fraction of its first clip; the rest pose if it has none.
 [[nodiscard]] PoseSpec pose_at(const Character& character, double fraction);

@@ -12,7 +12,8 @@ std::string written(const std::filesystem::path& file) {
   const std::string place = "wrote " + file.string();
   if (error) return place;  // A device has no size.
   if (bytes < 1e3) return place + printed(", %.0f bytes", bytes);
-  return place + (bytes < 1e6 ? printed(", %.0f kB", bytes / 1e3) : printed(", %.1f MB", bytes / 1e6));
+  return place +
+         (bytes < 1e6 ? printed(", %.0f kB", bytes / 1e3) : printed(", %.1f MB", bytes / 1e6));
 }
 
 }  // namespace sunder::tools

@@ -7,8 +7,7 @@ namespace sunder::tools {
 namespace {
 
 /// The box of a triangle in the picture, in pixels. @return false if it is partly behind the eye.
-bool box_of(const RenderTriangle& triangle, const RenderView& view, Vec2f& least,
-            Vec2f& greatest) {
+bool box_of(const RenderTriangle& triangle, const RenderView& view, Vec2f& least, Vec2f& greatest) {
   for (const Vec3f& corner : triangle.corners) {
     const Vec3f offset = corner - view.eye;
     const float depth = offset.dot(view.forward);

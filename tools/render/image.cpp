@@ -10,11 +10,10 @@ namespace sunder::tools {
 namespace {
 
 Status too_large(std::uint64_t width, std::uint64_t height, std::uint64_t most_pixels) {
-  return Status::failure(StatusCode::limit_exceeded, kNone,
-                         "an image has %llu x %llu pixels; %llu are read at most",
-                         static_cast<unsigned long long>(width),
-                         static_cast<unsigned long long>(height),
-                         static_cast<unsigned long long>(most_pixels));
+  return Status::failure(
+      StatusCode::limit_exceeded, kNone, "an image has %llu x %llu pixels; %llu are read at most",
+      static_cast<unsigned long long>(width), static_cast<unsigned long long>(height),
+      static_cast<unsigned long long>(most_pixels));
 }
 
 Result<Image> decode_png(std::span<const std::byte> file, std::uint64_t most_pixels) {

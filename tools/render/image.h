@@ -19,8 +19,8 @@ struct Image {
 /// Limit for the pixels of all images of a model together: 256 MiB when decoded.
 inline constexpr std::uint64_t kMostImagePixels = std::uint64_t{1} << 26;
 
-/// Reads a PNG or a JPEG, which is recognised by its first bytes. Its size is known before memory is
-/// taken for its pixels: 4 bytes each.
+/// Reads a PNG or a JPEG, which is recognised by its first bytes. Its size is known before memory
+/// is taken for its pixels: 4 bytes each.
 /// @return unsupported_format: another kind of file; malformed_file; limit_exceeded: more pixels.
 [[nodiscard]] Result<Image> decode_image(std::span<const std::byte> file,
                                          std::uint64_t most_pixels = kMostImagePixels);

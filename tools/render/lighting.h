@@ -9,9 +9,10 @@
 
 namespace sunder::tools {
 
-/// Lights infinitely far away: a lamp above the left shoulder of the camera, a weak one on the other
-/// side, which casts no shadow, and the sky. A pixel asks for one pattern of directions in which it
-/// may be in shadow; 4 x 4 pixels together ask for all of them, so that their mean is smooth.
+/// Lights infinitely far away: a lamp above the left shoulder of the camera, a weak one on the
+/// other side, which casts no shadow, and the sky. A pixel asks for one pattern of directions in
+/// which it may be in shadow; 4 x 4 pixels together ask for all of them, so that their mean is
+/// smooth.
 class Lighting {
  public:
   static constexpr std::size_t kPatterns = 16, kSkyRays = 6, kLampRays = 2;

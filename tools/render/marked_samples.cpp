@@ -21,8 +21,7 @@ class Depth {
     std::size_t widest = 2;
     const auto& c = mark.corners;
     for (std::size_t i = 2; i < c.size(); ++i)
-      if (std::abs(cross(c[0], c[i - 1], c[i])) >
-          std::abs(cross(c[0], c[widest - 1], c[widest])))
+      if (std::abs(cross(c[0], c[i - 1], c[i])) > std::abs(cross(c[0], c[widest - 1], c[widest])))
         widest = i;
     const double area = cross(c[0], c[widest - 1], c[widest]);
     at_origin_ = 1 / mark.depths[0];
@@ -35,9 +34,7 @@ class Depth {
              area;
     at_origin_ -= slope_.dot(c[0]);
   }
-  [[nodiscard]] double at(const Vec2d& place) const {
-    return 1 / (at_origin_ + slope_.dot(place));
-  }
+  [[nodiscard]] double at(const Vec2d& place) const { return 1 / (at_origin_ + slope_.dot(place)); }
 
  private:
   double at_origin_ = 1;

@@ -58,9 +58,9 @@ struct RenderScene {
   std::vector<std::array<Vec3f, 2>> lips;
   float redness = 0;
   Vec3f backdrop = Vec3f(0.62f, 0.65f, 0.69f);  ///< Linear RGB in the middle of the picture.
-  float backdrop_rise = 0.08f;  ///< By this share it is brighter at the upper edge.
-  float floor = 0;              ///< Height of the floor, which shows nothing but shadows.
-  float floor_radius = 0;       ///< Around the middle of the scene; 0: no floor.
+  float backdrop_rise = 0.08f;                  ///< By this share it is brighter at the upper edge.
+  float floor = 0;         ///< Height of the floor, which shows nothing but shadows.
+  float floor_radius = 0;  ///< Around the middle of the scene; 0: no floor.
 };
 
 }  // namespace sunder::tools

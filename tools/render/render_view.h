@@ -15,9 +15,7 @@ struct RenderView {
     return forward + static_cast<float>(2 * x / size.width - 1) * right + height(y) * up;
   }
   /// Of a place in pixels: -1 at the lower edge, 1 at the upper one.
-  [[nodiscard]] float height(double y) const {
-    return static_cast<float>(1 - 2 * y / size.height);
-  }
+  [[nodiscard]] float height(double y) const { return static_cast<float>(1 - 2 * y / size.height); }
 };
 
 }  // namespace sunder::tools

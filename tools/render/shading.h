@@ -15,9 +15,9 @@ class Shading {
   struct Surface {
     Vec4f color = Vec4f::Zero();  ///< Linear RGBA.
     Vec3f emission = Vec3f::Zero();
-    Vec3f normal = Vec3f::UnitY();  ///< Towards the eye, with bumps.
-    Vec3f smooth = Vec3f::UnitY();  ///< Without bumps.
-    Vec3f flat = Vec3f::UnitY();    ///< Of the triangle.
+    Vec3f normal = Vec3f::UnitY();                       ///< Towards the eye, with bumps.
+    Vec3f smooth = Vec3f::UnitY();                       ///< Without bumps.
+    Vec3f flat = Vec3f::UnitY();                         ///< Of the triangle.
     Vec3f place = Vec3f::Zero(), start = Vec3f::Zero();  ///< `start`: where rays begin.
     float gloss = 0.035f, sharpness = 18;
     bool is_unlit = false;
@@ -27,7 +27,7 @@ class Shading {
     Vec3f sky = Vec3f::Zero(), whole_sky = Vec3f::Zero();
     float lamp = 0, whole_lamp = 0;
     void add(const Light& other, float weight);
-    [[nodiscard]] Vec3f share_of_sky() const;    ///< Per channel, 0 to 1.
+    [[nodiscard]] Vec3f share_of_sky() const;   ///< Per channel, 0 to 1.
     [[nodiscard]] float share_of_lamp() const;  ///< 0 to 1.
   };
 

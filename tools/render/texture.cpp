@@ -46,9 +46,9 @@ Vec4f sampled(const Image& image, const std::array<RenderMaterial::Wrap, 2>& wra
     const int column = wrapped(static_cast<int>(left) + (i & 1), image.width, wrap[0]);
     const int row = wrapped(static_cast<int>(top) + (i >> 1), image.height, wrap[1]);
     const std::uint8_t* const pixel =
-        &image.rgba[std::size_t{4} * (static_cast<std::size_t>(row) *
-                                          static_cast<std::size_t>(image.width) +
-                                      static_cast<std::size_t>(column))];
+        &image.rgba[std::size_t{4} *
+                    (static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width) +
+                     static_cast<std::size_t>(column))];
     const float weight =
         ((i & 1) != 0 ? x - left : 1 - (x - left)) * ((i >> 1) != 0 ? y - top : 1 - (y - top));
     sum += weight * Vec4f(linear[pixel[0]], linear[pixel[1]], linear[pixel[2]],

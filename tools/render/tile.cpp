@@ -7,13 +7,13 @@
 namespace sunder::tools {
 namespace {
 
-constexpr int kBorder = 2;           ///< Pixels on each side over which light is averaged.
+constexpr int kBorder = 2;  ///< Pixels on each side over which light is averaged.
 /// Each of 4 x 4 patterns of directions counts the same.
 constexpr std::array<float, 5> kWeights = {0.5f, 1, 1, 1, 0.5f};
-constexpr int kMostLayers = 8;     ///< Of transparent surfaces.
-constexpr float kSameNormal = 0.8f;  ///< Least cosine on one surface.
-constexpr float kSamePlane = 3;      ///< Pixels between neighbours, off the plane.
-constexpr float kDarkest = 0.62f;    ///< Share of the floor's light that a shadow takes.
+constexpr int kMostLayers = 8;        ///< Of transparent surfaces.
+constexpr float kSameNormal = 0.8f;   ///< Least cosine on one surface.
+constexpr float kSamePlane = 3;       ///< Pixels between neighbours, off the plane.
+constexpr float kDarkest = 0.62f;     ///< Share of the floor's light that a shadow takes.
 constexpr float kLampOnFloor = 0.6f;  ///< Share of the lamp in the light of the floor.
 constexpr float kNowhere = 1e30f;
 
@@ -62,8 +62,11 @@ void Tile::see(Pixel& pixel, int x, int y, std::size_t sample) {
     layer.surface = shading_.surface_at(hit, view_.eye, along);
     layer.depth = hit.distance;
     beyond = hit.distance * 1.00001f;
-    const Probe probe{layer.surface.place, layer.surface.smooth, {},
-                      kSamePlane * pixel_size * hit.distance, false};
+    const Probe probe{layer.surface.place,
+                      layer.surface.smooth,
+                      {},
+                      kSamePlane * pixel_size * hit.distance,
+                      false};
     layer.probe = probe_at(pixel, x, y, probe, layer.surface.start, layer.surface.flat);
     layers_.push_back(layer);
     if (layer.surface.color.w() >= 0.99f) return;
@@ -93,9 +96,8 @@ std::uint32_t Tile::probe_at(Pixel& pixel, int x, int y, const Probe& wanted, co
   // Further surfaces of a pixel look in other directions than the first one.
   const auto pattern = static_cast<std::size_t>((x & 3) + 4 * (y & 3)) + 5 * pixel.probe_count;
   Probe& added = probes_.emplace_back(wanted);
-  added.light =
-      shading_.light_at(start, wanted.normal, flat, pattern % Lighting::kPatterns,
-                        wanted.is_floor ? Lighting::kSkyRays / 2 : Lighting::kSkyRays);
+  added.light = shading_.light_at(start, wanted.normal, flat, pattern % Lighting::kPatterns,
+                                  wanted.is_floor ? Lighting::kSkyRays / 2 : Lighting::kSkyRays);
   return pixel.first_probe + pixel.probe_count++;
 }
 
@@ -137,8 +139,8 @@ void Tile::shade(int x, int y, std::size_t sample, Vec3f& color, float& depth) {
   Vec3f backdrop = (1 + scene_.backdrop_rise * view_.height(down)) * scene_.backdrop;
   if (pixel.floor[sample] > 0) {
     const Shading::Light& light = smooth_[pixel.floor_probe - pixel.first_probe];
-    const float lit = kLampOnFloor * light.share_of_lamp() +
-                      (1 - kLampOnFloor) * light.share_of_sky().y();
+    const float lit =
+        kLampOnFloor * light.share_of_lamp() + (1 - kLampOnFloor) * light.share_of_sky().y();
     backdrop *= 1 - pixel.floor[sample] * kDarkest * (1 - lit);
   }
   color += left * backdrop;

@@ -26,7 +26,7 @@ struct TiledScene {
 /// the same surface. For one thread; the parts do not depend on each other.
 class Tile {
  public:
-  static constexpr int kSide = 80;             ///< Pixels.
+  static constexpr int kSide = 80;            ///< Pixels.
   static constexpr std::size_t kSamples = 4;  ///< Per pixel.
 
   explicit Tile(const TiledScene& drawn)
@@ -40,7 +40,7 @@ class Tile {
   struct Probe {
     Vec3f place, normal;
     Shading::Light light;
-    float reach = 0;  ///< Of the same surface, off its plane.
+    float reach = 0;        ///< Of the same surface, off its plane.
     bool is_floor = false;  ///< Which needs fewer directions.
   };
   /// What a sample sees, behind the layers before; behind the last one is the backdrop.

@@ -29,8 +29,7 @@ RenderView view_of(const Camera& camera, const PictureSize& size) {
   const Vec3d back = (camera.eye - camera.focal_point).normalized();
   const Vec3d right = camera.up.cross(back).normalized();
   const double slope = std::tan(camera.view_angle_degrees / 2 * std::numbers::pi / 180);
-  return {size, camera.eye.cast<float>(),
-          (slope * size.width / size.height * right).cast<float>(),
+  return {size, camera.eye.cast<float>(), (slope * size.width / size.height * right).cast<float>(),
           (slope * back.cross(right)).cast<float>(), -back.cast<float>()};
 }
 

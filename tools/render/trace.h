@@ -11,7 +11,7 @@ namespace sunder::tools {
 /// the same floating-point results, and on any number of threads. Takes about a second of processor
 /// time per 1280 x 960 pixels.
 /// @param threads  0: as many as the machine has.
-[[nodiscard]] Picture trace(const RenderScene& scene, const Camera& camera,
-                            const PictureSize& size, unsigned threads = 0);
+[[nodiscard]] Picture trace(const RenderScene& scene, const Camera& camera, const PictureSize& size,
+                            unsigned threads = 0);
 
 }  // namespace sunder::tools

@@ -26,8 +26,8 @@ std::string list(const Values& values, const Print& print) {
 
 template <class Values, class Print>
 std::string array(const char* name, const Values& values, const Print& print) {
-  return std::string("\t\t") + name + ": *" + std::to_string(values.size()) + " {\n\t\t\ta: " +
-         list(values, print) + "\n\t\t}\n";
+  return std::string("\t\t") + name + ": *" + std::to_string(values.size()) +
+         " {\n\t\t\ta: " + list(values, print) + "\n\t\t}\n";
 }
 
 std::string vector_property(const char* name, const char* type, const Vec3d& value) {
@@ -76,19 +76,20 @@ class Writer {
 
   void add_model(const FbxModel& model) {
     const std::string id = begin("Model", "Model", model.name, "Mesh");
-    objects_ += "\t\tVersion: 232\n\t\tProperties70:  {\n"
-                "\t\t\tP: \"RotationActive\", \"bool\", \"\", \"\",1\n" +
-                enum_property("RotationOrder", model.rotation_order) +
-                enum_property("InheritType", model.inherit_type) +
-                vector_property("Lcl Translation", "Lcl Translation", model.translation) +
-                vector_property("Lcl Rotation", "Lcl Rotation", model.rotation) +
-                vector_property("Lcl Scaling", "Lcl Scaling", model.scaling) +
-                vector_property("PreRotation", "Vector3D", model.pre_rotation) +
-                vector_property("PostRotation", "Vector3D", model.post_rotation) +
-                vector_property("RotationOffset", "Vector3D", model.rotation_offset) +
-                vector_property("RotationPivot", "Vector3D", model.rotation_pivot) +
-                vector_property("ScalingOffset", "Vector3D", model.scaling_offset) +
-                vector_property("ScalingPivot", "Vector3D", model.scaling_pivot) + "\t\t}\n\t}\n";
+    objects_ +=
+        "\t\tVersion: 232\n\t\tProperties70:  {\n"
+        "\t\t\tP: \"RotationActive\", \"bool\", \"\", \"\",1\n" +
+        enum_property("RotationOrder", model.rotation_order) +
+        enum_property("InheritType", model.inherit_type) +
+        vector_property("Lcl Translation", "Lcl Translation", model.translation) +
+        vector_property("Lcl Rotation", "Lcl Rotation", model.rotation) +
+        vector_property("Lcl Scaling", "Lcl Scaling", model.scaling) +
+        vector_property("PreRotation", "Vector3D", model.pre_rotation) +
+        vector_property("PostRotation", "Vector3D", model.post_rotation) +
+        vector_property("RotationOffset", "Vector3D", model.rotation_offset) +
+        vector_property("RotationPivot", "Vector3D", model.rotation_pivot) +
+        vector_property("ScalingOffset", "Vector3D", model.scaling_offset) +
+        vector_property("ScalingPivot", "Vector3D", model.scaling_pivot) + "\t\t}\n\t}\n";
     connect(id, model.parent == kNone ? "0" : model_ids_[model.parent]);
     model_ids_.push_back(id);
     const std::string geometry = begin("Geometry", "Geometry", model.name, "Mesh");
@@ -138,7 +139,8 @@ class Writer {
       objects_ +=
           "\t\tDefault: 0\n\t\tKeyVer: 4008\n" +
           array("KeyTime", curves[axis], [](const FbxKey& key) { return ticks(key.seconds); }) +
-          array("KeyValueFloat", curves[axis], [](const FbxKey& key) { return number(key.value); }) +
+          array("KeyValueFloat", curves[axis],
+                [](const FbxKey& key) { return number(key.value); }) +
           "\t\tKeyAttrFlags: *1 {\n\t\t\ta: 4\n\t\t}\n"
           "\t\tKeyAttrDataFloat: *4 {\n\t\t\ta: 0,0,0,0\n\t\t}\n"
           "\t\tKeyAttrRefCount: *1 {\n\t\t\ta: " +
