@@ -32,7 +32,10 @@ double resident_megabytes() {
 }  // namespace
 
 Budget::Budget(const BudgetLimits& limits, std::string place)
-    : limits_(limits), place_(std::move(place)), watch_([this] { watch(); }) {}
+    : limits_(limits),
+      place_(std::move(place)),
+      seconds_(limits.seconds),
+      watch_([this] { watch(); }) {}
 
 Budget::~Budget() {
   {
@@ -46,6 +49,11 @@ Budget::~Budget() {
 void Budget::begin(const std::string& place) {
   const std::scoped_lock lock(mutex_);
   place_ = place;
+}
+
+void Budget::allow_each(std::size_t pieces) {
+  const std::scoped_lock lock(mutex_);
+  seconds_ = limits_.seconds * static_cast<double>(std::max<std::size_t>(pieces, 1));
 }
 
 void Budget::end() {
@@ -82,8 +90,8 @@ void Budget::watch() {
 }
 
 void Budget::check() const {
-  if (std::chrono::duration<double>(Clock::now() - start_).count() > limits_.seconds)
-    stop("%g s", limits_.seconds, "--max-seconds");
+  if (std::chrono::duration<double>(Clock::now() - start_).count() > seconds_)
+    stop("%g s", seconds_, "--max-seconds");
   if (resident_megabytes() > limits_.megabytes)
     stop("%g MB of memory", limits_.megabytes, "--max-memory");
 }

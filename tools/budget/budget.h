@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <cstddef>
 #include <cstdint>
 #include <mutex>
 #include <string>
@@ -13,7 +14,7 @@ namespace sunder::tools {
 
 /// The work that a verb may do on what strangers give it.
 struct BudgetLimits {
-  double seconds = 300;
+  double seconds = 300;              ///< For each piece of work: Budget::allow_each().
   double megabytes = 4096;           ///< 2^20 bytes each, of the whole process.
   std::uint32_t vertices = 1000000;  ///< That operations may add to a mesh.
 };
@@ -30,6 +31,8 @@ class Budget {
 
   /// Says what the work is on from now: "ops.json: /operations/3".
   void begin(const std::string& place);
+  /// Allows the time of the limits for each of several pieces of work together; at first for one.
+  void allow_each(std::size_t pieces);
   /// The work is done; results follow, which are not limited.
   void end();
 
@@ -62,6 +65,7 @@ class Budget {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::string place_;
+  double seconds_;  ///< For all pieces of work.
   bool has_ended_ = false;
   int writing_ = 0;
   std::thread watch_;

@@ -187,6 +187,7 @@ ExitCode run_validate(const ValidateRequest& request) {
   if (request.manifest) {
     if (const Status status = read_manifest(*request.manifest, request, jobs); !status)
       return complain(request.manifest->string(), status, ExitCode::usage);
+    budget.allow_each(jobs.size());
   } else {
     jobs.push_back({{request.source, request.target, request.operations, request.bone_names,
                      profile_named(request.profile), request.limits, false, request.reading},
