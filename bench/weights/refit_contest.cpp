@@ -13,7 +13,7 @@
 #include "bench/weights/refit_methods.h"
 #include "core/internal/ordered.h"
 #include "support/models/rigs.h"
-#include "tear/contact/model_access.h"
+#include "tear/model/model_access.h"
 #include "tear/weights/refit_surface.h"
 
 namespace sunder::bench {

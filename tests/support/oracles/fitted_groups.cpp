@@ -14,7 +14,7 @@
 
 #include "core/internal/ordered.h"
 #include "skinning/internal/reference.h"
-#include "tear/contact/model_access.h"
+#include "tear/model/model_access.h"
 #include "tear/weights/assign_weights.h"
 #include "tear/weights/refit_poses.h"
 
