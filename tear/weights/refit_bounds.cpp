@@ -25,6 +25,7 @@ RefitBounds::RefitBounds(std::size_t groups, std::span<const Index> operations)
     : groups_(groups),
       barycentric_(operations.size() * groups, 0.0),
       rounding_(operations.size() * groups, 0.0),
+      doubt_(operations.size() * groups, 0.0),
       mean_(operations.size() * groups, 0.0),
       level_(operations.size() * groups, 0),
       is_kept_(operations.size(), false) {
@@ -44,6 +45,7 @@ void RefitBounds::set_barycentric(std::size_t point, std::size_t group, double m
 
 void RefitBounds::begin() {
   of_fit_ = allowed_ = barycentric_;
+  std::ranges::fill(doubt_, 0.0);
   for (const std::vector<std::size_t>& operation : points_)
     for (std::size_t group = 0; group < groups_; ++group) {
       double sum = 0;
@@ -79,28 +81,13 @@ bool RefitBounds::lower(std::size_t point, std::size_t group, double loss) {
   return allowed_[at] - barycentric_[at] < loss;
 }
 
-/// If an operation loses too much over a group: adds the points that lose most to `open`, as many
-/// as are necessary if each of them will use what it may have then.
-void RefitBounds::tighten(std::span<const std::size_t> operation, std::size_t group,
-                          std::vector<std::size_t>& open) {
-  struct Losing {
-    std::size_t point;
-    double loss;
-  };
-  double gained = 0, lost = 0, all = 0, rounding = 0;
-  std::vector<Losing> losing;
-  for (const std::size_t point : operation) {
-    const std::size_t at = point * groups_ + group;
-    const double loss = of_fit_[at] - barycentric_[at];
-    (loss < 0 ? gained : lost) += std::abs(loss);
-    all += of_fit_[at];
-    rounding += rounding_[at];
-    if (loss > 0) losing.push_back({point, loss});
-  }
-  if (all <= kExact * rounding) return;
+/// Lowers the slack of the points that lose most over a group, as many as are necessary if each of
+/// them will use what it may have then, and adds them to `open`.
+void RefitBounds::reduce_slack(std::vector<Loss> losing, double gained, double lost,
+                               std::size_t group, std::vector<std::size_t>& open) {
   while (lost > kMostLost * gained) {
-    const auto worst = std::ranges::max_element(losing, {}, &Losing::loss);
-    if (!(worst->loss > 0)) return;  // `lost` is what rounding left of it
+    const auto worst = std::ranges::max_element(losing, {}, &Loss::loss);
+    if (worst == losing.end() || !(worst->loss > 0)) return;  // `lost` is what rounding left of it
     open.push_back(worst->point);
     lost -= worst->loss;
     const std::size_t at = worst->point * groups_ + group;
@@ -114,10 +101,50 @@ void RefitBounds::tighten(std::span<const std::size_t> operation, std::size_t gr
   }
 }
 
-std::vector<std::size_t> RefitBounds::tighten() {
+/// Lets the points that lose most keep their barycentric weights, until the others together do not
+/// lose, and adds them to `open`.
+void RefitBounds::keep_worst(std::span<const std::size_t> operation,
+                             std::span<const double> changes, std::vector<std::size_t>& open) {
+  std::vector<Loss> all;
+  double sum = 0;
+  for (std::size_t i = 0; i < operation.size(); ++i) {
+    all.push_back({operation[i], changes[i]});
+    sum += changes[i];
+  }
+  std::ranges::sort(all, std::greater<>(), &Loss::loss);
+  for (std::size_t i = 0; i < all.size() && sum > 0 && all[i].loss > 0; ++i) {
+    sum -= all[i].loss;
+    keep(all[i].point);
+    open.push_back(all[i].point);
+  }
+}
+
+/// Adds points to `open` if an operation loses too much over a group.
+void RefitBounds::tighten(std::span<const std::size_t> operation, std::size_t group,
+                          const MeasureChanges& measure, std::vector<std::size_t>& open) {
+  double gained = 0, lost = 0, certainly_lost = 0, doubt = 0, all = 0, rounding = 0;
+  std::vector<Loss> losing;
+  for (const std::size_t point : operation) {
+    const std::size_t at = point * groups_ + group;
+    const double loss = of_fit_[at] - barycentric_[at];
+    (loss < 0 ? gained : lost) += std::abs(loss);
+    certainly_lost += std::max(loss - doubt_[at], 0.0);
+    doubt += doubt_[at];
+    all += of_fit_[at];
+    rounding += rounding_[at];
+    if (loss > doubt_[at]) losing.push_back({point, loss});
+  }
+  if (all <= kExact * rounding) return;
+  if (certainly_lost > kMostLost * gained)
+    reduce_slack(std::move(losing), gained, lost, group, open);
+  else if (lost + doubt > gained)
+    keep_worst(operation, measure(operation, group), open);
+}
+
+std::vector<std::size_t> RefitBounds::tighten(const MeasureChanges& measure) {
   std::vector<std::size_t> open;
   for (const std::vector<std::size_t>& operation : points_)
-    for (std::size_t group = 0; group < groups_; ++group) tighten(operation, group, open);
+    for (std::size_t group = 0; group < groups_; ++group) tighten(operation, group, measure, open);
   std::ranges::sort(open);
   open.erase(std::unique(open.begin(), open.end()), open.end());
   return open;

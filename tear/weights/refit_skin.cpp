@@ -201,7 +201,7 @@ void SkinRefit::fit_alone() {
   PointRefit refit;
   std::vector<std::size_t> open(points_.size());
   std::iota(open.begin(), open.end(), 0u);
-  for (; !open.empty() && !task_.is_cancelled; open = bounds_.tighten()) {
+  for (; !open.empty() && !task_.is_cancelled; open = tighten()) {
     for (std::size_t n = 0; n < open.size() && !task_.is_cancelled; ++n) fit(open[n], refit);
     keep_certified(open);
   }
@@ -229,15 +229,14 @@ void SkinRefit::take(std::size_t i, PointFit fit) {
   const std::span<double> squares = bounds_.of_fit(i);
   measure(i, fit.influences, fit.position, squares);
   if (!std::ranges::equal(squares, bounds_.allowed(i), std::less_equal<>())) return reject(i);
-  add_doubt(i, fit.influences, squares);
+  set_doubt(i, fit.influences);
   fits_[i] = std::move(fit);
 }
 
-/// Adds by how much the change of the mean squares of a point can be less than measured: sums of
-/// stored weights miss one, which moves a posed point by that share of its distance from the
-/// origin, and moments are sums of squared distances in double.
-void SkinRefit::add_doubt(std::size_t i, std::span<const Influence> influences,
-                          std::span<double> squares) const {
+/// Sets by how much the change of the mean squares of a point can differ from the measured one:
+/// sums of stored weights miss one, which moves a posed point by that share of its distance from
+/// the origin, and moments are sums of squared distances in double.
+void SkinRefit::set_doubt(std::size_t i, std::span<const Influence> influences) {
   const auto missing = [](std::span<const Influence> of) {
     double sum = 0;
     for (const Influence& influence : of) sum += static_cast<double>(influence.weight);
@@ -248,11 +247,63 @@ void SkinRefit::add_doubt(std::size_t i, std::span<const Influence> influences,
     exact += term.q.w();
   const double missed =
       missing(influences) + missing(task_.barycentric(points_[i])) + 2 * std::abs(exact - 1);
-  for (std::size_t group = 0; group < squares.size(); ++group) {
+  const std::span<double> doubt = bounds_.doubt(i);
+  for (std::size_t group = 0; group < doubt.size(); ++group) {
     const double length = std::sqrt(bounds_.rounding(i)[group]) / kStoredFitLengths;
     const double moved = missed * length;
-    const double error = std::sqrt(std::max(squares[group], bounds_.barycentric(i)[group]));
-    squares[group] += (2 * error + moved) * moved + kMomentRounding * length * length;
+    const double error =
+        std::sqrt(std::max(bounds_.of_fit(i)[group], bounds_.barycentric(i)[group]));
+    doubt[group] = (2 * error + moved) * moved + kMomentRounding * length * length;
+  }
+}
+
+std::vector<std::size_t> SkinRefit::tighten() {
+  return bounds_.tighten([this](std::span<const std::size_t> points, std::size_t group) {
+    return posed_changes(points, group);
+  });
+}
+
+/// The changes of mean squares over a group, from each of its poses and the weights as they are
+/// stored.
+std::vector<double> SkinRefit::posed_changes(std::span<const std::size_t> points,
+                                             std::size_t group) {
+  std::vector<double> changes(points.size(), 0.0);
+  if (group == poses_->groups().size()) {  // all points are of one operation
+    const auto& own = task_.operations[task_.points[points_[points.front()]].operation].poses;
+    for (const ModelPose& pose : own)
+      add_posed_changes(points, pose, 1.0 / static_cast<double>(own.size()), changes);
+    return changes;
+  }
+  const auto& numbers = poses_->groups()[group].poses;
+  ModelPose pose;
+  for (const std::size_t number : numbers)
+    if (poses_->compute(number, pose))
+      add_posed_changes(points, pose,
+                        poses_->weight_of(number) / static_cast<double>(numbers.size()), changes);
+  return changes;
+}
+
+void SkinRefit::add_posed_changes(std::span<const std::size_t> points, const ModelPose& pose,
+                                  double share, std::vector<double>& changes) {
+  const Skin& skin = task_.source->skins[skin_];
+  scratch_.palette.resize(skin.bones.size());
+  if (!compute_palette(skin, pose, scratch_.palette)) return;
+  const auto posed = [&](std::span<const Influence> influences, const Vec3d& position) {
+    Eigen::Vector3d at = Eigen::Vector3d::Zero();
+    for (const Influence& influence : influences)
+      at += static_cast<double>(influence.weight) *
+            (scratch_.palette[influence.slot] * Eigen::Vector3d(position));
+    return at;
+  };
+  for (std::size_t n = 0; n < points.size(); ++n) {
+    const PointFit& fit = fits_[points[n]];
+    if (!fit.is_taken) continue;
+    const RefitTask::Point& point = task_.points[points_[points[n]]];
+    const Eigen::Vector3d exact = point.exact.posed(scratch_.palette);
+    changes[n] +=
+        share *
+        ((posed(fit.influences, fit.position) - exact).squaredNorm() -
+         (posed(task_.barycentric(points_[points[n]]), point.position) - exact).squaredNorm());
   }
 }
 
@@ -262,6 +313,7 @@ void SkinRefit::reject(std::size_t i) {
   fits_[i].point = points_[i];
   fits_[i].certified = task_.points[points_[i]].certified;
   std::ranges::copy(bounds_.barycentric(i), bounds_.of_fit(i).begin());
+  std::ranges::fill(bounds_.doubt(i), 0.0);
 }
 
 /// Gives up the fits, of some points, that could stray farther in some pose than the options allow.
@@ -318,7 +370,7 @@ Status SkinRefit::fit_together() {
                fit.influences, fit.position});
     }
     keep_certified(all);
-    is_done = is_done && bounds_.tighten().empty();
+    is_done = is_done && tighten().empty();
   }
   return {};
 }

@@ -44,8 +44,12 @@ class SkinRefit {
   void fit_alone();
   void fit(std::size_t i, PointRefit& refit);
   void take(std::size_t i, PointFit fit);
-  void add_doubt(std::size_t i, std::span<const Influence> influences,
-                 std::span<double> squares) const;
+  void set_doubt(std::size_t i, std::span<const Influence> influences);
+  [[nodiscard]] std::vector<std::size_t> tighten();
+  [[nodiscard]] std::vector<double> posed_changes(std::span<const std::size_t> points,
+                                                  std::size_t group);
+  void add_posed_changes(std::span<const std::size_t> points, const ModelPose& pose, double share,
+                         std::vector<double>& changes);
   void reject(std::size_t i);
   void keep_certified(std::span<const std::size_t> fitted);
   [[nodiscard]] Status fit_together();
@@ -65,6 +69,7 @@ class SkinRefit {
   struct Scratch {
     std::vector<AnimationPoint::Term> terms, difference;
     std::vector<double> of_terms;
+    std::vector<Affine3d> palette;
   } scratch_;
 };
 

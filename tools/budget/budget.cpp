@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <limits>
 #include <new>
 #include <unistd.h>
@@ -19,14 +20,12 @@ constexpr double kMegabyte = 1 << 20;
 
 /// The memory of the process that is in use now; 0 where the system does not say.
 double resident_megabytes() {
-  std::FILE* const file = std::fopen("/proc/self/statm", "re");
-  if (file == nullptr) return 0;
-  unsigned long long pages = 0;
-  const bool is_known = std::fscanf(file, "%*u %llu", &pages) == 1;
-  (void)std::fclose(file);
-  return is_known
-             ? static_cast<double>(pages) * static_cast<double>(sysconf(_SC_PAGESIZE)) / kMegabyte
-             : 0;
+  std::ifstream file("/proc/self/statm");
+  unsigned long long all = 0, resident = 0;
+  file >> all >> resident;
+  return file ? static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE)) /
+                    kMegabyte
+              : 0;
 }
 
 }  // namespace
@@ -105,7 +104,7 @@ void Budget::stop(const char* format, double limit, const char* option) const {
     print_error("sunder: " + place_ + ": takes more than " + amount + "; " + option +
                 " allows more (" + std::string(status_name(StatusCode::limit_exceeded)) + ")");
   } catch (const std::bad_alloc&) {
-    std::fputs("sunder: out of memory\n", stderr);
+    // The exit code says it.
   }
   std::fflush(stdout);  // what is finished
   std::_Exit(static_cast<int>(ExitCode::limit_exceeded));
