@@ -21,7 +21,13 @@ ExitCode refuse(const CLI::App& app, const CLI::ParseError& error) {
   std::ostringstream out, err;
   const int code = app.exit(error, out, err);
   print_text(out.str());
-  std::istringstream lines(err.str());
+  // The message may contain an argument with line ends, which print_error() shows as escapes.
+  std::string text = err.str();
+  if (const std::string message = error.what(); !message.empty() && text.starts_with(message)) {
+    print_error(message);
+    text.erase(0, text.find('\n', message.size()) + 1);
+  }
+  std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) print_error(line);
   return code == 0 ? ExitCode::ok : ExitCode::usage;
 }

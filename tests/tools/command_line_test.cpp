@@ -190,7 +190,8 @@ TEST_F(BashCompletion, it_completes_verbs_options_choices_and_files) {
   EXPECT_THAT(complete("sunder tear --ops two"), ElementsAre("two words.glb"));
   EXPECT_THAT(complete("sunder tear --refit-bound t"), IsEmpty());
   EXPECT_THAT(complete("sunder transfer --m"),
-              UnorderedElementsAre("--method", "--mix", "--max-error", "--memory"));
+              UnorderedElementsAre("--method", "--mix", "--max-error", "--memory", "--max-seconds",
+                                   "--max-memory"));
 }
 
 TEST(CommandLine, other_shells_can_read_their_completions) {

@@ -14,7 +14,7 @@ CommandResult run_by_shell(const std::string& script, const std::string& model,
 
 TEST_F(InputCommand, takes_operations_from_pipes) {
   write("ops.json", kOneTear);
-  for (const std::string& script :
+  for (const char* const script :
        {R"("$0" tear "$1" --ops <(cat "$2/ops.json") -o "$2/torn.glb")",
         R"(cat "$2/ops.json" | "$0" tear "$1" --ops /dev/stdin -o "$2/torn.glb" --force)",
         R"("$0" tear "$1" --ops /dev/stdin -o "$2/torn.glb" --force < "$2/ops.json")"}) {
