@@ -95,7 +95,10 @@ double fit_within_bounds(SkinPoints& skin, std::size_t groups, PointRefit& refit
   std::vector<std::size_t> open(skin.points.size());
   std::iota(open.begin(), open.end(), 0u);
   double sum = 0;
-  for (; !open.empty(); open = bounds.tighten())
+  const auto without_doubt = [](std::span<const std::size_t> of, std::size_t) {
+    return std::vector<double>(of.size(), 0.0);
+  };
+  for (; !open.empty(); open = bounds.tighten(without_doubt))
     for (const std::size_t i : open) {
       PointToRefit point = to_refit(skin, i);
       point.allowed = bounds.allowed(i);

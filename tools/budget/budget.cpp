@@ -106,7 +106,7 @@ void Budget::stop(const char* format, double limit, const char* option) const {
   } catch (const std::bad_alloc&) {
     // The exit code says it.
   }
-  std::fflush(stdout);  // what is finished
+  std::fflush(nullptr);  // what is finished
   std::_Exit(static_cast<int>(ExitCode::limit_exceeded));
 }
 
