@@ -9,7 +9,7 @@
 
 namespace sunder::bench {
 
-/// What one way to fit gains on one rig, torn four times in poses of some clips and fitted over
+/// The gain of one way to fit on one rig, torn four times in poses of some clips and fitted over
 /// these clips alone: the root mean square error of barycentric weights divided by that of the
 /// fits.
 struct MethodGain {

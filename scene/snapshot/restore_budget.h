@@ -4,7 +4,7 @@
 
 namespace sunder::scene {
 
-/// What a snapshot may still use of RestoreOptions. The failures name the limit, and what was
+/// Counts down what a snapshot may still use of RestoreOptions. The failures name the limit, and what was
 /// found.
 class RestoreBudget {
  public:

@@ -6,7 +6,7 @@
 
 namespace sunder::tear {
 
-/// What a model had before an operation.
+/// The sizes of a model before an operation.
 struct OperationCounts {
   Index points = 0;
   std::vector<Index> vertices;  ///< Per mesh.

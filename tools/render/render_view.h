@@ -14,7 +14,7 @@ struct RenderView {
   [[nodiscard]] Vec3f along(double x, double y) const {
     return forward + static_cast<float>(2 * x / size.width - 1) * right + height(y) * up;
   }
-  /// Of a place in pixels: -1 at the lower edge, 1 at the upper one.
+  /// Converts a place in pixels: -1 at the lower edge, 1 at the upper one.
   [[nodiscard]] float height(double y) const { return static_cast<float>(1 - 2 * y / size.height); }
 };
 

@@ -73,7 +73,7 @@ struct RestoreOptions {
 /// did not is not even looked at. Cost is in proportion to the instances that are active.
 ///
 /// One thread at a time, except for submit(), which any thread may call at any time. Results have
-/// the same bits for any number of threads. A failing call changes nothing. See docs/scene.md.
+/// the same bits for any number of threads. A failing call changes nothing. See docs/frame.md.
 class SUNDER_API Scene {
  public:
   /// @return limit_exceeded: out of memory or threads.

@@ -40,9 +40,9 @@ struct GraphWound {
   GraphWound(const GraphSurface& surface, const TwoMembranes& materials, const GraphMesh& mesh,
              double range, std::uint64_t seed_order);
 
-  /// Of the particles, in balance.
+  /// The difference of the particles, in balance.
   MembraneDifference difference(const QuadraticMembrane& wanted, double newtons_per_metre);
-  /// Of solve_membrane(), for one material only.
+  /// The difference of solve_membrane(), for one material only.
   [[nodiscard]] MembraneDifference difference_of_elements(const QuadraticMembrane& wanted,
                                                           double newtons_per_metre) const;
 

@@ -9,7 +9,7 @@
 
 namespace sunder::test {
 
-/// What must hold in a scene after an update, whatever snapshot it was restored from: the vertices
+/// Checks what must hold in a scene after an update, whatever snapshot it was restored from: the vertices
 /// that it drew are finite, and the particles of these instances keep their laws. One sentence per
 /// fault.
 /// @param checks_cells  as of broken_particles(). Restoring compares the cells of now with the
