@@ -13,7 +13,7 @@ namespace {
 /// A face belongs to the limb if the limb and its parent move at least so much of it …
 constexpr double kLeastLimbAndParent = 0.5;
 /// … and the limb itself at least this.
-constexpr double kLeastLimb = 0.2;
+constexpr double kLeastRayLimb = 0.2;
 
 /// Surfaces nearer to one another than this share of the width are one, or its two sides.
 constexpr double kSameSurfaceWidths = 1e-6;
@@ -43,7 +43,7 @@ LimbRays::LimbRays(const Limb& limb, const ViewFrame& frame, std::span<const Sec
 
 bool LimbRays::may_belong(Index face, double reach) const {
   const LimbShares shares = limb_.bones.shares_of_face(face);
-  if (shares.limb() < kLeastLimb || shares.limb() + shares.parent() < kLeastLimbAndParent)
+  if (shares.limb() < kLeastRayLimb || shares.limb() + shares.parent() < kLeastLimbAndParent)
     return false;
   const std::array<Vec3d, 3> corners = limb_.surface.corners(face);
   // Faces beyond the reach on one side along the limb are another part of it: a bent forearm is

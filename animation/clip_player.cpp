@@ -56,11 +56,11 @@ Status no_layer(LayerId id) {
                          id.slot);
 }
 
-bool is_share(float value) { return value >= 0.0f && value <= 1.0f; }
+bool is_blend_share(float value) { return value >= 0.0f && value <= 1.0f; }
 bool is_duration(double value) { return std::isfinite(value) && value >= 0.0; }
 
 Status check_fade(float weight, double seconds) {
-  if (is_share(weight) && is_duration(seconds)) return {};
+  if (is_blend_share(weight) && is_duration(seconds)) return {};
   return Status::failure(StatusCode::invalid_argument, kNone,
                          "a fade to %g in %g s: the weight must be in [0, 1], the time >= 0",
                          static_cast<double>(weight), seconds);
@@ -82,7 +82,7 @@ Status check_mask(const BoneMask& mask, std::size_t bones) {
                            "the mask of a layer has %zu bones, the character has %zu",
                            mask.bones.size(), bones);
   for (std::uint32_t bone = 0; bone < bones; ++bone)
-    if (!is_share(mask.bones[bone]) || !is_share(mask.morph_weights))
+    if (!is_blend_share(mask.bones[bone]) || !is_blend_share(mask.morph_weights))
       return Status::failure(StatusCode::invalid_argument, bone,
                              "the mask of a layer leaves [0, 1] at bone %u or for morph weights",
                              bone);
@@ -102,7 +102,7 @@ Status check_slots(const ClipPlayerState& kept) {
   LayerKind kind = LayerKind::whole;
   for (const ClipPlayerState::Layer& layer : kept.layers) {
     const auto& [from, to, elapsed, seconds, easing] = layer.fade;
-    const bool is_sound = is_share(from) && is_share(to) && is_duration(elapsed) &&
+    const bool is_sound = is_blend_share(from) && is_blend_share(to) && is_duration(elapsed) &&
                           is_duration(seconds) && is_duration(layer.phase) &&
                           layer.options.kind >= kind;
     if (!is_sound || !see(layer.slot))

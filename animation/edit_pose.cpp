@@ -76,7 +76,7 @@ Status rotate_bone(const Skeleton& skeleton, std::uint32_t bone, const Quatd& ro
   const Result<Quatd> turn = checked_rotation(bone, rotation);
   if (!turn) return turn.error();
   Quatf& local = pose.parent_from_bone[bone].rotation;
-  const Quatd before = animation::unit(local.cast<double>());
+  const Quatd before = animation::unit(Quatd(local.cast<double>()));
   if (!before.coeffs().allFinite()) return not_finite(bone, "rotation");
   Quatd after = before;
   if (space == EditSpace::bone) {

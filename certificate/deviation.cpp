@@ -11,7 +11,6 @@ namespace sunder {
 namespace certificate {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kLeastPerTask = 256;
 constexpr std::uint64_t kMostRefined = 8;  // times what is asked for
 
@@ -86,7 +85,8 @@ void refine_worst(const JointTree::State& tree, const BoundWork& work, std::uint
   };
   std::vector<Entry> heap;
   for (std::uint32_t point = 0; point < bound.size(); ++point)
-    if (bound[point] > 0 && bound[point] < kInfinity) heap.emplace_back(bound[point], point);
+    if (bound[point] > 0 && bound[point] < std::numeric_limits<double>::infinity())
+      heap.emplace_back(bound[point], point);
   std::make_heap(heap.begin(), heap.end(), comes_later);
   double largest = 0;
   for (std::uint64_t i = 0; !heap.empty() && i < kMostRefined * wanted; ++i) {
@@ -110,7 +110,7 @@ void summarise(const JointTree::State& tree, const SkinDifferences& rows, const 
     const auto terms = row_of(rows, point);
     const double bound = certificate.bound[point];
     PathGap gap;
-    if (bound == kInfinity && find_gap(tree, terms, gap)) {
+    if (bound == std::numeric_limits<double>::infinity() && find_gap(tree, terms, gap)) {
       add_gap(gap, point, certificate.gaps);
       continue;
     }

@@ -17,7 +17,6 @@ namespace sunder {
 namespace certificate {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kFloatTurn = 2e-6;       // radians that sampling in float may add
 constexpr double kFloatShare = 1e-6;      // of a length
 constexpr double kRegular = 1e-4;         // bind matrices are rounded to float
@@ -84,7 +83,7 @@ double angle_between(const Vec4d& q, const Vec4d& unit) {
 /// time, which is concave where it is positive: its least value is at a key, or it passes zero.
 double largest_angle_of_slerp(const Vec4d& from, const Vec4d& to, const Vec4d& bind) {
   const double side = dot(from, to) < 0 ? -1.0 : 1.0;
-  if (dot(from, bind) * dot(to, bind) * side < 0) return kPi;
+  if (dot(from, bind) * dot(to, bind) * side < 0) return std::numbers::pi;
   return std::max(angle_between(from, bind), angle_between(to, bind));
 }
 
@@ -95,7 +94,8 @@ double largest_angle_of_spline(const ControlPoints& points, const Vec4d& bind, d
   double hull = 0;
   const double side = dot(points[0], bind) < 0 ? -1.0 : 1.0;
   for (const Vec4d& point : points)
-    hull = std::max(hull, dot(point, bind) * side > 0 ? angle_between(point, bind) : kPi);
+    hull =
+        std::max(hull, dot(point, bind) * side > 0 ? angle_between(point, bind) : std::numbers::pi);
   reached = std::max({reached, angle_between(points[0], bind), angle_between(points[3], bind)});
   if (hull <= reached + kSplineAccuracy || depth == 0) return std::max(hull, reached);
   const Vec4d a = 0.5 * (points[0] + points[1]), b = 0.5 * (points[1] + points[2]),
@@ -278,13 +278,14 @@ struct LimitMaker {
                 limits.of_bone[channel.index]);
     for (std::uint32_t bone = 0; bone < bones.size(); ++bone)
       if (ranges[bone].is_rotated)
-        limits.of_bone[bone].angle = std::min(kPi, limits.of_bone[bone].angle + margin);
+        limits.of_bone[bone].angle =
+            std::min(std::numbers::pi, limits.of_bone[bone].angle + margin);
     return limits;
   }
 
  private:
   void widen(double angle, std::uint32_t bone, JointRange& joint) const {
-    joint.angle = std::min(kPi, std::max(joint.angle, angle + frames[bone].slack));
+    joint.angle = std::min(std::numbers::pi, std::max(joint.angle, angle + frames[bone].slack));
   }
 
   JointRange start(std::uint32_t bone) {

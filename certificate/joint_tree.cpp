@@ -12,9 +12,6 @@ namespace sunder {
 namespace certificate {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 Status fault_of(const JointRange& range, std::uint32_t bone) {
   const auto is_number = [](double value) { return !std::isnan(value); };
   if (!range.axis.allFinite() || !range.slide_from.allFinite() || !range.slide_to.allFinite() ||
@@ -50,7 +47,7 @@ Mat3d unit_axes(const Affine3d& model_from_bone) {
 /// the cosine of each joint's largest angle, or to 0 where that is negative; then it is 0
 /// everywhere.
 void fill_turn(PreparedJoint& joint) {
-  const double half = std::min(joint.half_range(), kPi);
+  const double half = std::min(joint.half_range(), std::numbers::pi);
   joint.middle_cosine = std::cos(joint.middle());
   joint.middle_sine = std::sin(joint.middle());
   joint.half_cosine = std::cos(half);
@@ -62,7 +59,8 @@ void fill_turn(PreparedJoint& joint) {
   }
   joint.set_lane(0.0, kZeroLane, joint.turn);
   joint.set_lane(0.0, kFittedLane, joint.turn);  // set anew for each point
-  joint.largest_turn = std::min(std::max(std::abs(joint.lower), std::abs(joint.upper)), kPi);
+  joint.largest_turn =
+      std::min(std::max(std::abs(joint.lower), std::abs(joint.upper)), std::numbers::pi);
   joint.turn.cosine[0] = 1.0;
   joint.turn.sine[0] = 0.0;
   joint.turn.radius[0] = 2.0 * std::sin(0.5 * joint.largest_turn);
@@ -70,7 +68,8 @@ void fill_turn(PreparedJoint& joint) {
 
 /// Largest relative change of a length when the joint is crossed in either direction.
 double strain_of(const PreparedJoint& joint) {
-  if (!joint.has_scale_range || joint.scale_lower == 0) return kInfinity;
+  if (!joint.has_scale_range || joint.scale_lower == 0)
+    return std::numeric_limits<double>::infinity();
   return std::log1p(std::max({joint.scale_upper - 1, 1 - joint.scale_lower,
                               1 / joint.scale_lower - 1, 1 - 1 / joint.scale_upper}));
 }
@@ -85,7 +84,7 @@ PreparedJoint prepare(const JointRange& range, const Affine3d& model_from_bone) 
     joint.lower = range.lower;
     joint.upper = range.upper;
   } else {
-    joint.upper = std::min(range.angle, kPi);
+    joint.upper = std::min(range.angle, std::numbers::pi);
   }
   joint.has_slide_range = std::isfinite(range.slide_radius);
   joint.has_scale_range = std::isfinite(range.scale_upper);

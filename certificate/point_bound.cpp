@@ -7,8 +7,7 @@
 namespace sunder::certificate {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kSafety = 1.0 + 1e-10;
+constexpr double kBoundSafety = 1.0 + 1e-10;
 constexpr double kRounding = 1e-13;  // of the terms' lengths, for sums that cancel
 constexpr int kSweeps = 6;
 constexpr int kSectionSteps = 14;
@@ -24,7 +23,7 @@ double with_safety(const JointTree::State& tree, std::span<const SkinTerm> terms
   double length = 0;
   for (const SkinTerm& term : terms)
     length += term.x.cwiseAbs().sum() + std::abs(term.m) * tree.extent;
-  return kSafety * bound + kRounding * length;
+  return kBoundSafety * bound + kRounding * length;
 }
 
 /// The s that is best if the joint of a ball alone moves.
@@ -165,14 +164,14 @@ double PointBound::without_safety(std::span<const SkinTerm> terms) {
     sum += term.m;
     at_bind += term.x;
   }
-  if (!(std::abs(sum) <= kSumTolerance)) return kInfinity;
+  if (!(std::abs(sum) <= kSumTolerance)) return std::numeric_limits<double>::infinity();
   while (open_.size() > 1) {
     Ball ball = open_.back();
     open_.pop_back();
     const PreparedJoint& joint = tree_->nodes[ball.node];
-    if (!joint.has_scale_range) return kInfinity;
+    if (!joint.has_scale_range) return std::numeric_limits<double>::infinity();
     if (!joint.has_slide_range && ball.m != 0) {
-      if (std::abs(ball.m) > sum_tolerance_) return kInfinity;
+      if (std::abs(ball.m) > sum_tolerance_) return std::numeric_limits<double>::infinity();
       crossed_.push_back(
           {ball.node - 1, std::abs(ball.m) * tree_->nodes[joint.parent].growth_above, 0});
     }
@@ -183,7 +182,8 @@ double PointBound::without_safety(std::span<const SkinTerm> terms) {
     add(ball);
   }
   const PreparedJoint& top = tree_->nodes[open_.back().node];
-  return top.unscaled_bone == kNone ? distance_at_top(top, open_.back()) : kInfinity;
+  return top.unscaled_bone == kNone ? distance_at_top(top, open_.back())
+                                    : std::numeric_limits<double>::infinity();
 }
 
 double PointBound::of(std::span<const SkinTerm> terms) {

@@ -6,7 +6,6 @@
 namespace sunder::certificate {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kMostPasses = 60;
 constexpr int kStartsTried = 16;
 
@@ -52,7 +51,7 @@ double hinge_towards(const PreparedJoint& joint, const Vec3d& y, const Vec3d& go
   const double sine = dot(a, y.cross(goal));
   if (cosine == 0 && sine == 0) return std::clamp(0.0, joint.lower, joint.upper);
   double best = std::atan2(sine, cosine);
-  best += 2 * kPi * std::ceil((joint.lower - best) / (2 * kPi));
+  best += 2 * std::numbers::pi * std::ceil((joint.lower - best) / (2 * std::numbers::pi));
   if (best <= joint.upper) return best;
   const auto value = [&](double angle) {
     return cosine * std::cos(angle) + sine * std::sin(angle);
@@ -118,7 +117,7 @@ JointMotion PoseSearch::random_motion(const PreparedJoint& joint, std::mt19937_6
     scales[i] = std::clamp(joint.scale() + uniform(random, -2, 2) * joint.scale_half(),
                            joint.scale_lower, joint.scale_upper);
   const Vec3d turned = random_direction(random);
-  const Mat3d axes = rotation_about(turned, uniform(random, 0, kPi));
+  const Mat3d axes = rotation_about(turned, uniform(random, 0, std::numbers::pi));
   motion.stretch = multiply(Mat3d(axes * scales.asDiagonal()), Mat3d(axes.transpose()));
   return motion;
 }

@@ -11,9 +11,6 @@
 namespace sunder {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 struct Range {
   double lower = 0, upper = 0;
 };
@@ -35,7 +32,9 @@ bool turns(const RobotJoint& joint) {
 /// A range of more than a turn is all turns.
 Range turn_range(const Robot& robot, const RobotJoint& joint) {
   const Range range = range_of(robot, joint);
-  return range.upper - range.lower < 2 * kPi ? range : Range{-kPi, kPi};
+  return range.upper - range.lower < 2 * std::numbers::pi
+             ? range
+             : Range{-std::numbers::pi, std::numbers::pi};
 }
 
 void set_hinge(const Vec3d& axis, const Range& range, JointRange& joint) {
@@ -47,7 +46,7 @@ void set_hinge(const Vec3d& axis, const Range& range, JointRange& joint) {
 
 void set_slide(const Vec3d& axis, const Range& range, JointRange& joint) {
   if (!std::isfinite(range.lower) || !std::isfinite(range.upper)) {
-    joint.slide_radius = kInfinity;
+    joint.slide_radius = std::numeric_limits<double>::infinity();
     return;
   }
   joint.slide_from = axis * range.lower;
@@ -62,11 +61,11 @@ JointRange joint_range_of(const Robot& robot, const RobotJoint& joint) {
   } else if (joint.type == RobotJointType::prismatic) {
     set_slide(joint.axis, range_of(robot, joint), range);
   } else if (joint.first_value != kNone && joint.type == RobotJointType::planar) {
-    set_hinge(joint.axis, {-kPi, kPi}, range);
-    range.slide_radius = kInfinity;
+    set_hinge(joint.axis, {-std::numbers::pi, std::numbers::pi}, range);
+    range.slide_radius = std::numeric_limits<double>::infinity();
   } else if (joint.first_value != kNone && joint.type == RobotJointType::floating) {
-    range.angle = kPi;
-    range.slide_radius = kInfinity;
+    range.angle = std::numbers::pi;
+    range.slide_radius = std::numeric_limits<double>::infinity();
   }
   return range;
 }

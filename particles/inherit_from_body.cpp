@@ -2,6 +2,7 @@
 
 #include <new>
 
+#include "core/internal/out_of_memory.h"
 #include "particles/body_state.h"
 #include "particles/clusters/influences.h"
 
@@ -90,10 +91,6 @@ PointMotion motion_at(const BodyState& of, Index point) {
     motion.velocity += weight * of.motion.velocities[p];
   });
   return motion;
-}
-
-Status out_of_memory() {
-  return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
 }
 
 Status check_map(const BodyState& to, const BodyState& other,

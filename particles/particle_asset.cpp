@@ -4,6 +4,7 @@
 #include <new>
 #include <stdexcept>
 
+#include "core/internal/out_of_memory.h"
 #include "particles/clusters/check_pose.h"
 #include "particles/clusters/decompose.h"
 #include "particles/clusters/decompose_model.h"
@@ -13,10 +14,6 @@
 
 namespace sunder {
 namespace {
-
-Status out_of_memory() {
-  return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
-}
 
 /// @param report  its range in metres is written.
 Status find_range(const DecompositionOptions& options, double diagonal,

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "core/internal/ordered.h"
+#include "core/internal/out_of_memory.h"
 #include "particles/clusters/check_pose.h"
 #include "particles/clusters/decompose_model.h"
 #include "particles/clusters/gradients.h"
@@ -27,10 +28,6 @@ bool is_untouched(const TornModel& model, std::span<const ChangeRecord> changes)
   return std::ranges::all_of(changes, [](const ChangeRecord& change) {
     return change.meshes.empty() && change.point_count == 0;
   });
-}
-
-Status out_of_memory() {
-  return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
 }
 
 }  // namespace

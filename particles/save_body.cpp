@@ -2,6 +2,7 @@
 
 #include <new>
 
+#include "core/internal/out_of_memory.h"
 #include "particles/body_state.h"
 #include "particles/clusters/tape.h"
 #include "particles/internal/recorded_limits.h"
@@ -16,11 +17,7 @@ using particles::kMostRecordedSeconds;
 using particles::Motion;
 using particles::Tape;
 
-constexpr std::uint32_t kVersion = 6;
-
-Status out_of_memory() {
-  return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
-}
+constexpr std::uint32_t kBodyVersion = 6;
 
 void describe(Tape& tape, SoftMaterial& of) {
   for (double* value : {&of.return_frequency, &of.damping_ratio, &of.membrane_stiffness,
@@ -232,7 +229,7 @@ void set_state(Recorded&& of, BodyState& state) {
 Result<StateArrays> SoftBody::save() const {
   try {
     StateArrays arrays;
-    arrays.version = kVersion;
+    arrays.version = kBodyVersion;
     Tape tape = Tape::writer(arrays);
     Recorded of = recorded(*state_);
     describe(tape, of, *state_->set);
@@ -243,10 +240,10 @@ Result<StateArrays> SoftBody::save() const {
 }
 
 Status SoftBody::restore(const StateArrays& arrays) {
-  if (arrays.version != kVersion)
+  if (arrays.version != kBodyVersion)
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "a recorded state of a soft body has version %u; this library reads %u",
-                           arrays.version, kVersion);
+                           arrays.version, kBodyVersion);
   try {
     state_->follow_particles();
     Tape tape = Tape::reader(arrays);

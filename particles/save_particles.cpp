@@ -2,6 +2,7 @@
 
 #include <new>
 
+#include "core/internal/out_of_memory.h"
 #include "particles/clusters/describe.h"
 #include "particles/clusters/gradients.h"
 #include "particles/clusters/set_data.h"
@@ -14,17 +15,13 @@ using particles::Change;
 using particles::Structure;
 using particles::Tape;
 
-constexpr std::uint32_t kVersion = 5;
-
-Status out_of_memory() {
-  return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
-}
+constexpr std::uint32_t kParticlesVersion = 5;
 
 Status check_version(const StateArrays& state) {
-  if (state.version == kVersion) return {};
+  if (state.version == kParticlesVersion) return {};
   return Status::failure(StatusCode::invalid_argument, kNone,
                          "a recorded state of particles has version %u; this library reads %u",
-                         state.version, kVersion);
+                         state.version, kParticlesVersion);
 }
 
 /// Sets what a recorded state does not contain.
@@ -55,7 +52,7 @@ Result<StateArrays> ParticleSet::save() const {
                            "the particles cannot be recorded while a stroke is in progress");
   try {
     StateArrays state;
-    state.version = kVersion;
+    state.version = kParticlesVersion;
     Tape tape = Tape::writer(state);
     bool is_torn = data_->own != nullptr;
     tape(is_torn);

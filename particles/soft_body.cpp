@@ -4,6 +4,7 @@
 #include <cmath>
 #include <new>
 
+#include "core/internal/out_of_memory.h"
 #include "particles/body_state.h"
 #include "particles/clusters/influences.h"
 #include "particles/clusters/structure_of.h"
@@ -53,10 +54,6 @@ Status check_material(const SoftMaterial& material, Index index) {
   if (status) return status;
   return Status::failure(status.code(), index, "%.*s", static_cast<int>(status.text().size()),
                          status.text().data());
-}
-
-Status out_of_memory() {
-  return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
 }
 
 Status follow(BodyState& state) {

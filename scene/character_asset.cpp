@@ -4,15 +4,12 @@
 
 #include <new>
 
+#include "core/internal/out_of_memory.h"
 #include "scene/asset_data.h"
 #include "scene/torn_parts.h"
 
 namespace sunder {
 namespace {
-
-Status out_of_memory() {
-  return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
-}
 
 Result<scene::AssetMesh> make_mesh(const Mesh& mesh, std::size_t slots,
                                    const CharacterAssetOptions& options) {

@@ -11,10 +11,6 @@
 namespace sunder {
 namespace {
 
-Status out_of_memory() {
-  return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory; make a new instance");
-}
-
 Status no_stroke() {
   return Status::failure(StatusCode::invalid_argument, kNone, "no stroke is in progress");
 }
@@ -252,7 +248,7 @@ Result<CompactMaps> CharacterInstance::compact() {
     state_ = std::move(fresh);
     return maps;
   } catch (const std::bad_alloc&) {
-    return out_of_memory();
+    return broken_for_lack_of_memory();
   }
 }
 
@@ -262,7 +258,7 @@ Status CharacterInstance::advance(const ModelPose& pose, double seconds,
                                   std::uint32_t settled_points) {
   const MemoryScope scope(state_->memory);
   State& state = *state_;
-  if (state.is_broken) return out_of_memory();
+  if (state.is_broken) return broken_for_lack_of_memory();
   if (Status status = check_seconds(seconds); !status) return status;
   if (Status status = scene::check_pose(*state.shared().character, pose); !status) return status;
   const bool is_moved = !is_same_pose(pose, state.pose);

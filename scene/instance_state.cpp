@@ -6,13 +6,10 @@
 #include "scene/actor/piece_tissue.h"
 
 namespace sunder {
-namespace {
 
-Status out_of_memory() {
+Status broken_for_lack_of_memory() {
   return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory; make a new instance");
 }
-
-}  // namespace
 
 CharacterInstance::State::State(std::shared_ptr<const CharacterAsset> of, const TornCapacity& room)
     : asset(std::move(of)), capacity(room) {
@@ -21,7 +18,7 @@ CharacterInstance::State::State(std::shared_ptr<const CharacterAsset> of, const 
 }
 
 Status CharacterInstance::State::require_torn() {
-  if (is_broken) return out_of_memory();
+  if (is_broken) return broken_for_lack_of_memory();
   if (torn) return {};
   const CharacterAssetOptions& options = shared().options;
   try {
@@ -200,7 +197,7 @@ VertexDisplacements CharacterInstance::State::displacements(Index mesh) {
 }
 
 Status CharacterInstance::State::draw(const ParallelFor& parallel_for) {
-  if (is_broken) return out_of_memory();
+  if (is_broken) return broken_for_lack_of_memory();
   if (pose.model_from_bone.empty())
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "the instance has no pose yet; call advance() first");

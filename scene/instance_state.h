@@ -16,6 +16,9 @@
 
 namespace sunder {
 
+/// The status of every call on an instance that ran out of memory half-way.
+[[nodiscard]] Status broken_for_lack_of_memory();
+
 /// The parts of an instance that is drawn.
 struct DrawnParts {
   std::vector<BonePalette> palettes;  ///< One per skin.

@@ -11,16 +11,11 @@
 #include <system_error>
 #include <utility>
 
+#include "core/internal/out_of_memory.h"
 #include "scene/scene_state.h"
 
 namespace sunder {
-namespace {
-
-Status out_of_memory() {
-  return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
-}
-
-}  // namespace
+namespace {}  // namespace
 
 /// Hands each command to its instance. Commands without an instance fail at once.
 void Scene::State::take_commands() {

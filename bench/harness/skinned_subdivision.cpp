@@ -15,9 +15,9 @@ struct Blend {
   std::array<float, 3> shares;
 };
 
-class Subdivision {
+class SkinnedSubdivision {
  public:
-  Subdivision(const Mesh& base, int divisions, Mesh& mesh)
+  SkinnedSubdivision(const Mesh& base, int divisions, Mesh& mesh)
       : base_(base), divisions_(static_cast<std::uint32_t>(divisions)), mesh_(mesh) {
     mesh_.uv_sets.resize(base.uv_sets.size());
     for (std::uint32_t v = 0; v < base.vertex_count(); ++v) append({{v, v, v}, {1, 0, 0}});
@@ -119,7 +119,7 @@ Character subdivide_skinned(const Character& character, int divisions) {
     mesh.name = base.name;
     mesh.skin = base.skin;
     mesh.submeshes = base.submeshes;
-    Subdivision subdivision(base, divisions, mesh);
+    SkinnedSubdivision subdivision(base, divisions, mesh);
     for (std::size_t t = 0; t < base.triangles.size(); ++t)
       subdivision.add(base.triangles[t], base.triangle_submesh[t]);
   }

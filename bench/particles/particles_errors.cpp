@@ -13,8 +13,8 @@
 namespace sunder::bench {
 namespace {
 
-constexpr std::uint32_t kCells = 320;  // along each edge of the sheet
-constexpr double kTension = 1.2, kHalfLength = 0.2;
+constexpr std::uint32_t kErrorCells = 320;  // along each edge of the sheet
+constexpr double kErrorTension = 1.2, kHalfLength = 0.2;
 constexpr std::uint64_t kOrders = 6;
 constexpr double kOpen = 0.3;  ///< A wound ends where it is this much as wide as its widest gap.
 
@@ -26,8 +26,8 @@ struct Reference {
 
 Reference reference_of(const test::SlitSheet& sheet) {
   return {test::solve_membrane(*sheet.model, sheet.set->positions(), sheet.body->materials()[0],
-                               test::lip_forces(*sheet.set, kTension)),
-          test::reference_gap(sheet, kTension)};
+                               test::lip_forces(*sheet.set, kErrorTension)),
+          test::reference_gap(sheet, kErrorTension)};
 }
 
 /// The length along which a wound is open. Between points squares of widths are linear, as they are
@@ -52,7 +52,7 @@ double open_length(const test::GapProfile& gap) {
 }
 
 double step_seconds_of(test::SlitSheet& sheet) {
-  if (!sheet.body->set_tension({kTension, {}})) std::exit(1);
+  if (!sheet.body->set_tension({kErrorTension, {}})) std::exit(1);
   std::vector<double> seconds;
   for (int i = 0; i < 20; ++i)
     seconds.push_back(
@@ -66,10 +66,10 @@ ErrorFigures measure(double range, const Reference& wanted) {
   std::vector<double> seconds;
   const auto add_square = [](double& mean, double error) { mean += error * error / kOrders; };
   for (std::uint64_t order = 0; order < kOrders; ++order) {
-    test::SlitSheet sheet(kCells, kHalfLength, range, {}, 1, order);
+    test::SlitSheet sheet(kErrorCells, kHalfLength, range, {}, 1, order);
     figures.particles += sheet.set->particle_count() / double{kOrders};
     seconds.push_back(step_seconds_of(sheet));
-    sheet.open(kTension);
+    sheet.open(kErrorTension);
     const double unit = 0.5 * wanted.gap.widest();
     double squares = 0;
     for (std::uint32_t p = 0; p < sheet.set->point_count(); ++p) {
@@ -96,7 +96,7 @@ ErrorFigures measure(double range, const Reference& wanted) {
 }  // namespace
 
 std::vector<ErrorFigures> measure_errors() {
-  const Reference reference = reference_of(test::SlitSheet(kCells, kHalfLength, 0.2, {}));
+  const Reference reference = reference_of(test::SlitSheet(kErrorCells, kHalfLength, 0.2, {}));
   std::vector<ErrorFigures> figures;
   for (const double range : {0.28, 0.2, 0.14, 0.1, 0.07, 0.05, 0.035, 0.025})
     figures.push_back(measure(range, reference));

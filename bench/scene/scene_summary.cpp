@@ -13,7 +13,7 @@
 namespace sunder::bench {
 namespace {
 
-constexpr std::uint32_t kSmall = 3'000, kMiddle = 16'000, kLarge = 100'000, kBones = 64;
+constexpr std::uint32_t kSmall = 3'000, kMiddle = 16'000, kLarge = 100'000, kSummaryBones = 64;
 constexpr std::uint32_t kMostVertices = 20'000'000;  ///< Of a crowd: more do not fit into memory.
 
 double median_frame(Crowd& crowd, int frames) {
@@ -152,7 +152,7 @@ void print_scene_tables() {
   std::printf("%9s %6s %10s %10s %10s %10s %10s %10s\n", "vertices", "count", "none moves",
               "1 % moves", "all move", "+ a tear", "+ 10 tears", "gaping");
   for (const std::uint32_t vertices : {kSmall, kMiddle, kLarge}) {
-    const auto character = make_crowd_model(vertices, kBones);
+    const auto character = make_crowd_model(vertices, kSummaryBones);
     for (const std::uint32_t count : {1u, 10u, 100u, 1000u}) print_crowd(character, count);
   }
   std::printf("\nTwenty seconds of one soft character of 163 bones, one thread, milliseconds\n");
@@ -165,7 +165,8 @@ void print_scene_tables() {
 }
 
 void print_scene_summary() {
-  const auto small = make_crowd_model(kSmall, kBones), middle = make_crowd_model(kMiddle, kBones);
+  const auto small = make_crowd_model(kSmall, kSummaryBones),
+             middle = make_crowd_model(kMiddle, kSummaryBones);
   JsonObject object;
   object.add("idle_1000_us", idle_microseconds(middle));
   object.add("one_percent_ratio", one_percent(small));

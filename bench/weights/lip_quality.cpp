@@ -24,8 +24,8 @@
 namespace sunder::bench {
 namespace {
 
-constexpr int kTears = 4;
-constexpr std::uint32_t kInfluences = 4;
+constexpr int kLipTears = 4;
+constexpr std::uint32_t kLipInfluences = 4;
 constexpr std::size_t kMostClips = 8;
 constexpr int kPosesOfClip = 4;
 /// Faces of a smaller area than this share of the squared lip edge have no reliable normal.
@@ -133,7 +133,7 @@ struct Torn {
 WeightsOperation weights_of(WeightPolicy policy, std::uint32_t operations) {
   WeightsOperation wanted;
   wanted.operation_count = operations;
-  wanted.weights = {policy, kInfluences};
+  wanted.weights = {policy, kLipInfluences};
   wanted.refit.poses.range_of_motion = true;
   return wanted;
 }
@@ -150,7 +150,7 @@ std::optional<Torn> tear_rig(const std::shared_ptr<const Character>& character) 
     if (!pose) std::abort();
     return std::move(*pose);
   };
-  for (int attempt = 0; attempt < 60 && torn.operations < kTears; ++attempt) {
+  for (int attempt = 0; attempt < 60 && torn.operations < kLipTears; ++attempt) {
     const std::uint32_t clip = random.index(clips);
     const ModelPose pose = pose_of(clip, random.uniform(0, 1));
     const auto report = torn.model.tear(pose, test::random_stroke(*character, pose, random));

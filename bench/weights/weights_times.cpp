@@ -12,10 +12,10 @@
 namespace sunder::bench {
 namespace {
 
-constexpr Effort kEffort = {400, 0.5, 20};
+constexpr Effort kTimedEffort = {400, 0.5, 20};
 
 /// A value that the compiler cannot optimise away.
-volatile double kept_alive;
+volatile double kept_sum;
 
 std::size_t mean_of(const TornPoint& point, std::size_t maximum, std::vector<Influence>& mean) {
   const std::size_t count = mean_influences(point.influences, point.barycentric, mean.data());
@@ -30,7 +30,7 @@ void describe(const TornPoint& point, AnimationPoint& exact) {
 
 template <class Work>
 double microseconds_of(std::size_t points, Work work) {
-  const auto seconds = sample(kEffort, [&] { return seconds_of(work); });
+  const auto seconds = sample(kTimedEffort, [&] { return seconds_of(work); });
   return 1e6 * *std::min_element(seconds.begin(), seconds.end()) / static_cast<double>(points);
 }
 
@@ -104,7 +104,7 @@ double PointsToWeigh::microseconds(const WeightOptions& options) const {
                    .mean_square;
       }
     }
-    kept_alive = sum;
+    kept_sum = sum;
   });
 }
 
@@ -117,7 +117,7 @@ double PointsToWeigh::fit_microseconds(const PointRefit::Options& options,
     double sum = 0;
     for (std::size_t i = 0; i < points.size(); ++i)
       sum += refit.fit(inputs[i], options, moments(points[i])).mean_square;
-    kept_alive = sum;
+    kept_sum = sum;
   });
 }
 

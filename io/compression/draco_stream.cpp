@@ -12,7 +12,7 @@
 namespace sunder::compression {
 namespace {
 
-using Size = unsigned long long;
+using DracoSize = unsigned long long;
 
 constexpr int kVersionMajor = 2, kVersionMinor = 2;
 // glTF has about 16 attributes of at most four numbers. Draco allows thousands of 255.
@@ -64,8 +64,8 @@ class ClaimCheck {
  private:
   bool refuse(StatusCode code, const char* format, std::uint64_t claimed, std::uint64_t limit) {
     const std::string text = std::string("the Draco data ") + format + " %llu";
-    fault_ = Status::failure(code, kNone, text.c_str(), static_cast<Size>(claimed),
-                             static_cast<Size>(limit));
+    fault_ = Status::failure(code, kNone, text.c_str(), static_cast<DracoSize>(claimed),
+                             static_cast<DracoSize>(limit));
     return false;
   }
 

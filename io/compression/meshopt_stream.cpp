@@ -7,7 +7,7 @@ namespace {
 
 using Mode = MeshoptStream::Mode;
 using Filter = MeshoptStream::Filter;
-using Size = unsigned long long;
+using MeshoptSize = unsigned long long;
 
 constexpr std::uint64_t kLargestStride = 256;
 // The vertex codec spends at least two bits on 16 bytes of output, the others a byte per triangle
@@ -64,16 +64,16 @@ Status check_stream(const MeshoptStream& stream) {
   if (!is_possible_stride(stream))
     return Status::failure(StatusCode::malformed_file, kNone,
                            "elements of %llu bytes are not possible with this mode and filter",
-                           static_cast<Size>(stream.stride));
+                           static_cast<MeshoptSize>(stream.stride));
   if (stream.mode == Mode::triangles && stream.count % 3 != 0)
     return Status::failure(StatusCode::malformed_file, kNone,
                            "%llu indices are no whole number of triangles",
-                           static_cast<Size>(stream.count));
+                           static_cast<MeshoptSize>(stream.count));
   if (stream.count == 0 || stream.count > largest_count(stream))
     return Status::failure(StatusCode::malformed_file, kNone,
                            "%llu elements of %llu bytes cannot be compressed in %zu bytes",
-                           static_cast<Size>(stream.count), static_cast<Size>(stream.stride),
-                           stream.bytes.size());
+                           static_cast<MeshoptSize>(stream.count),
+                           static_cast<MeshoptSize>(stream.stride), stream.bytes.size());
   return {};
 }
 

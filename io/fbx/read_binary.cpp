@@ -11,13 +11,13 @@ namespace {
 
 constexpr std::size_t kVersionPlace = 23;
 constexpr std::uint32_t kFirstWide = 7500;  ///< Versions from here on have places of 64 bits.
-constexpr int kMaximumDepth = 64;
+constexpr int kMaximumBinaryDepth = 64;
 /// Deflate does not compress better than this.
 constexpr std::size_t kMostCompression = 1032;
 
-class Reader {
+class BinaryReader {
  public:
-  explicit Reader(std::span<const std::byte> file) : file_(file), at_(kVersionPlace) {
+  explicit BinaryReader(std::span<const std::byte> file) : file_(file), at_(kVersionPlace) {
     is_wide_ = number<std::uint32_t>() >= kFirstWide;
   }
 
@@ -77,7 +77,7 @@ class Reader {
   }
 
   Record read_body(const Head& head, int depth, bool is_objects = false) {
-    if (depth > kMaximumDepth) fail("FBX records nested too deep");
+    if (depth > kMaximumBinaryDepth) fail("FBX records nested too deep");
     Record record;
     record.name = head.name;
     for (std::size_t i = 0; i < head.value_count; ++i) record.values.push_back(read_value());
@@ -154,6 +154,6 @@ class Reader {
 
 }  // namespace
 
-Record read_binary_records(std::span<const std::byte> file) { return Reader(file).read(); }
+Record read_binary_records(std::span<const std::byte> file) { return BinaryReader(file).read(); }
 
 }  // namespace sunder::fbx

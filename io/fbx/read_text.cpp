@@ -7,16 +7,16 @@
 namespace sunder::fbx {
 namespace {
 
-constexpr int kMaximumDepth = 64;
+constexpr int kMaximumTextDepth = 64;
 
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 bool ends_word(char c) {
   return is_space(c) || c == ',' || c == ':' || c == '{' || c == '}' || c == ';' || c == '"';
 }
 
-class Reader {
+class TextReader {
  public:
-  explicit Reader(std::string_view file) : file_(file) {}
+  explicit TextReader(std::string_view file) : file_(file) {}
 
   Record read() {
     Record document;
@@ -48,7 +48,7 @@ class Reader {
 
   /// @param section  of the document, in which a record is read; empty at the top.
   Record read_record(int depth, std::string_view section) {
-    if (depth > kMaximumDepth) fail("FBX records nested too deep");
+    if (depth > kMaximumTextDepth) fail("FBX records nested too deep");
     Record record;
     record.name = word();
     if (record.name.empty() || here() != ':') fail("FBX text without 'name:'");
@@ -146,6 +146,6 @@ class Reader {
 
 }  // namespace
 
-Record read_text_records(std::string_view file) { return Reader(file).read(); }
+Record read_text_records(std::string_view file) { return TextReader(file).read(); }
 
 }  // namespace sunder::fbx

@@ -11,7 +11,7 @@
 namespace sunder::fbx {
 namespace {
 
-constexpr int kMaximumDepth = 1024;
+constexpr int kMaximumModelDepth = 1024;
 constexpr std::uint32_t kMostModels = 1'000'000;
 
 struct Link {
@@ -129,7 +129,7 @@ class SceneReader {
   }
 
   void add_models(std::int64_t parent_id, std::uint32_t parent, int depth) {
-    if (depth > kMaximumDepth) throw std::runtime_error("FBX models nested too deep");
+    if (depth > kMaximumModelDepth) throw std::runtime_error("FBX models nested too deep");
     for (const Link& link : links_to(parent_id)) {
       const Record* const record = object(link.source, "Model");
       if (record == nullptr || !link.property.empty()) continue;

@@ -7,7 +7,7 @@
 namespace sunder::gltf {
 namespace {
 
-using Place = unsigned long long;
+using BufferPlace = unsigned long long;
 
 void resolve_buffer(SourceDocument& document, const Container& container, std::size_t index,
                     std::uint64_t& bytes_left) {
@@ -35,7 +35,7 @@ void resolve_buffer(SourceDocument& document, const Container& container, std::s
   if (claimed > bytes.size())
     refuse(StatusCode::malformed_file, static_cast<std::uint32_t>(index),
            "%s/byteLength: %llu bytes declared, %zu found", buffer.pointer().c_str(),
-           static_cast<Place>(claimed), bytes.size());
+           static_cast<BufferPlace>(claimed), bytes.size());
   document.buffers.push_back(bytes.first(claimed));
 }
 
@@ -59,8 +59,8 @@ void check_buffer_views(const SourceDocument& document) {
     if (offset > available || length > available - offset)
       refuse(StatusCode::index_out_of_range, static_cast<std::uint32_t>(i),
              "%s: offset %llu and length %llu exceed the buffer of %llu bytes",
-             view.pointer().c_str(), static_cast<Place>(offset), static_cast<Place>(length),
-             static_cast<Place>(available));
+             view.pointer().c_str(), static_cast<BufferPlace>(offset),
+             static_cast<BufferPlace>(length), static_cast<BufferPlace>(available));
   }
 }
 

@@ -99,7 +99,8 @@ constexpr Rule code(const char* name, std::span<const int> codes, bool required 
 
 constexpr int kIndexTypes[] = {5121, 5123, 5125};
 constexpr int kComponentTypes[] = {5120, 5121, 5122, 5123, 5125, 5126};
-constexpr const char* kElementTypes[] = {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"};
+constexpr const char* kKnownElementTypes[] = {"SCALAR", "VEC2", "VEC3", "VEC4",
+                                              "MAT2",   "MAT3", "MAT4"};
 constexpr Rule kSparseIndices[] = {index("bufferView", "bufferViews", kRequired),
                                    whole("byteOffset"),
                                    code("componentType", kIndexTypes, kRequired)};
@@ -216,7 +217,7 @@ constexpr Rule kAccessor[] = {index("bufferView", "bufferViews"),
                               code("componentType", kComponentTypes, kRequired),
                               {.name = "normalized", .form = Form::flag},
                               whole("count", 1, kRequired),
-                              choice("type", kElementTypes, kRequired),
+                              choice("type", kKnownElementTypes, kRequired),
                               numbers("max", 0),
                               numbers("min", 0),
                               object("sparse", kSparse),

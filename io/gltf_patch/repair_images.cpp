@@ -14,7 +14,7 @@
 namespace sunder::gltf {
 namespace {
 
-constexpr const char* kWebp = "EXT_texture_webp";
+constexpr const char* kWebpExtension = "EXT_texture_webp";
 constexpr std::string_view kWhitePixel =
     "data:image/"
     "png;base64,"
@@ -106,10 +106,11 @@ class ImageRepair {
     const auto source = found->get<std::size_t>();
     if (std::find(webp_.begin(), webp_.end(), source) == webp_.end()) return;
     texture.erase("source");
-    Json& extension = texture["extensions"][kWebp];
+    Json& extension = texture["extensions"][kWebpExtension];
     if (!extension.is_object() || !extension.contains("source")) extension = {{"source", source}};
     Json& used = list_of(draft_.json, "extensionsUsed");
-    if (std::find(used.begin(), used.end(), kWebp) == used.end()) used.push_back(kWebp);
+    if (std::find(used.begin(), used.end(), kWebpExtension) == used.end())
+      used.push_back(kWebpExtension);
   }
 
   GlbDraft& draft_;

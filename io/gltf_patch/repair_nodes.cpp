@@ -17,7 +17,7 @@ namespace {
 
 // A little less than the reader's, so that the written file needs no repair; the Khronos validator
 // allows more.
-constexpr double kUnitTolerance = 0.00009;
+constexpr double kRotationTolerance = 0.00009;
 // The tolerance of the Khronos validator.
 constexpr double kMatrixTolerance = 0.00005;
 
@@ -43,7 +43,7 @@ void make_rotation_unit(Json& node) {
   const bool is_inside = std::all_of(found->begin(), found->end(), [](const Json& one) {
     return std::abs(one.get<double>()) <= 1.0;
   });
-  if (std::abs(length - 1.0) <= kUnitTolerance && is_inside) return;
+  if (std::abs(length - 1.0) <= kRotationTolerance && is_inside) return;
   if (length < 1e-6) {
     node.erase("rotation");
     return;

@@ -12,7 +12,7 @@ namespace sunder::gltf {
 namespace {
 
 // The tolerance of the Khronos validator.
-constexpr double kUnitTolerance = 0.00769;
+constexpr double kKeyTolerance = 0.00769;
 
 std::string interpolation_of(const Json& sampler) {
   const auto found = sampler.find("interpolation");
@@ -53,7 +53,7 @@ bool are_rotations_unit(const std::vector<float>& values, bool is_spline) {
     double squared = 0;
     for (std::size_t i = 4 * row; i < 4 * row + 4; ++i)
       squared += static_cast<double>(values[i]) * static_cast<double>(values[i]);
-    if (std::abs(std::sqrt(squared) - 1.0) > kUnitTolerance) return false;
+    if (std::abs(std::sqrt(squared) - 1.0) > kKeyTolerance) return false;
   }
   return true;
 }

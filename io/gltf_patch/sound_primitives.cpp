@@ -11,7 +11,7 @@ namespace sunder::gltf {
 namespace {
 
 // Tolerances of the Khronos validator.
-constexpr double kUnitTolerance = 0.00674;
+constexpr double kNormalTolerance = 0.00674;
 constexpr double kSumTolerance = 2e-7;
 
 /// "TEXCOORD" and 1 of "TEXCOORD_1"; without a number: kNone.
@@ -55,7 +55,7 @@ bool are_unit(const std::vector<float>& values, std::size_t components) {
     double squared = 0;
     for (std::size_t c = 0; c < 3; ++c)
       squared += static_cast<double>(values[i + c]) * static_cast<double>(values[i + c]);
-    if (std::abs(std::sqrt(squared) - 1.0) > kUnitTolerance) return false;
+    if (std::abs(std::sqrt(squared) - 1.0) > kNormalTolerance) return false;
     if (components == 4 && std::abs(values[i + 3]) != 1.0f) return false;
   }
   return true;

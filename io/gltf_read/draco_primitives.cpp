@@ -18,10 +18,10 @@ namespace sunder::gltf {
 namespace {
 
 using compression::DracoMesh;
-using Size = unsigned long long;
+using DracoSize = unsigned long long;
 
 constexpr const char* kName = "KHR_draco_mesh_compression";
-constexpr std::uint64_t kTriangles = 4;
+constexpr std::uint64_t kTriangleMode = 4;
 
 /// The accessor of an attribute, and the attribute's id in the Draco data.
 struct AttributeSource {
@@ -43,7 +43,7 @@ std::vector<AttributeSource> attribute_sources(const SourceDocument& document,
     const std::uint64_t unique_id = id.to_unsigned();
     if (unique_id >= kNone)
       refuse(StatusCode::malformed_file, kNone, "%.160s: the Draco data has no attribute %llu",
-             id.pointer().c_str(), static_cast<Size>(unique_id));
+             id.pointer().c_str(), static_cast<DracoSize>(unique_id));
     sources.push_back({item.key(), accessor_of(document, attributes.member(item.key().c_str())),
                        static_cast<std::uint32_t>(unique_id)});
   }
@@ -102,7 +102,7 @@ class Decoding {
             .to_index(count_of(document_.json, "bufferViews"), "buffer view");
     compression::DracoLimits limits{kNone / 3, 0, decoded_.bytes_left()};
     const auto indices = primitive.find("indices");
-    if (indices && primitive.unsigned_or("mode", kTriangles) == kTriangles)
+    if (indices && primitive.unsigned_or("mode", kTriangleMode) == kTriangleMode)
       limits.triangles = count_of_accessor(accessor_of(document_, *indices)) / 3;
     for (const AttributeSource& source : sources)
       limits.points = std::max(limits.points, count_of_accessor(source.accessor));
@@ -165,7 +165,7 @@ class Decoding {
     }
     refuse(StatusCode::malformed_file, source.accessor,
            "/accessors/%u/componentType: unknown component type %llu", source.accessor,
-           static_cast<Size>(type));
+           static_cast<DracoSize>(type));
   }
 
   /// Gives an accessor its data; a copy of it, if it has other data already.

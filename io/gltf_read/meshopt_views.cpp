@@ -14,7 +14,7 @@ namespace sunder::gltf {
 namespace {
 
 using compression::MeshoptStream;
-using Size = unsigned long long;
+using MeshoptSize = unsigned long long;
 
 /// The second is the name under which the first became part of Khronos' extensions.
 MeshoptStream::Mode read_mode(const Cursor& at) {
@@ -51,7 +51,7 @@ std::span<const std::byte> compressed_bytes(const SourceDocument& document, cons
   if (offset > bytes.size() || length > bytes.size() - offset)
     refuse(StatusCode::index_out_of_range, buffer,
            "%s: offset %llu and length %llu exceed the buffer of %zu bytes", at.pointer().c_str(),
-           static_cast<Size>(offset), static_cast<Size>(length), bytes.size());
+           static_cast<MeshoptSize>(offset), static_cast<MeshoptSize>(length), bytes.size());
   return bytes.subspan(offset, length);
 }
 
@@ -73,8 +73,8 @@ CompressedView read_view(const SourceDocument& document, std::uint32_t index, co
   if (length != stream.count * stream.stride)
     refuse(StatusCode::malformed_file, index,
            "%s: %llu elements of %llu bytes in a view of %llu bytes", at.pointer().c_str(),
-           static_cast<Size>(stream.count), static_cast<Size>(stream.stride),
-           static_cast<Size>(length));
+           static_cast<MeshoptSize>(stream.count), static_cast<MeshoptSize>(stream.stride),
+           static_cast<MeshoptSize>(length));
   return compressed;
 }
 

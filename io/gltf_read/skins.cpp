@@ -9,7 +9,7 @@ namespace {
 
 // The tolerance for the last row of a matrix. Files of double products and inverses that were
 // stored as floats are off by this at most.
-constexpr float kRounding = 1e-6f, kLargestRounding = 1e-3f;
+constexpr float kWeightRounding = 1e-6f, kLargestWeightRounding = 1e-3f;
 
 struct BindMatrix {
   Affine3f bone_from_bind;
@@ -22,7 +22,7 @@ BindMatrix read_bind(const Accessor& accessor, std::uint32_t slot, const float* 
     refuse(StatusCode::non_finite_value, slot,
            "/accessors/%u: inverse bind matrix %u is not finite", accessor.index, slot);
   const float error = (matrix.row(3) - Eigen::RowVector4f(0, 0, 0, 1)).cwiseAbs().maxCoeff();
-  if (error > kLargestRounding)
+  if (error > kLargestWeightRounding)
     refuse(StatusCode::malformed_file, slot,
            "/accessors/%u: inverse bind matrix %u: its last row is not 0 0 0 1", accessor.index,
            slot);
@@ -106,7 +106,7 @@ Skin SkinReader::read_skin(const Cursor& at, std::uint32_t gltf_skin) {
     const BindMatrix read = read_bind(accessor, slot, numbers.data() + std::size_t{slot} * 16);
     skin.bone_from_bind[slot] = read.bone_from_bind;
     differs |= read.last_row_error != 0.0f;
-    if (read.last_row_error > kRounding) ++rounded;
+    if (read.last_row_error > kWeightRounding) ++rounded;
     if (is_singular(skin.bone_from_bind[slot])) ++singular;
   }
   if (singular > 0)

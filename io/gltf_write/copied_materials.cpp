@@ -8,7 +8,8 @@
 namespace sunder::gltf {
 namespace {
 
-constexpr std::array<const char*, 4> kLists = {"materials", "textures", "samplers", "images"};
+constexpr std::array<const char*, 4> kMaterialLists = {"materials", "textures", "samplers",
+                                                       "images"};
 
 /// The names of all extensions below a value.
 void collect_extensions(const Json& value, std::set<std::string>& names) {
@@ -33,7 +34,7 @@ std::uint32_t copy_materials(const SourceDocument& source, GlbDraft& draft) {
   GlbDraft from(source);
   from.embed_images();
   std::set<std::string> extensions;
-  for (const char* const list : kLists) {
+  for (const char* const list : kMaterialLists) {
     if (!from.json.contains(list) || !from.json[list].is_array()) continue;
     collect_extensions(from.json[list], extensions);
     draft.json[list] = from.json[list];

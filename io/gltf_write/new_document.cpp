@@ -10,6 +10,7 @@
 #include "io/gltf/refusal.h"
 #include "io/gltf_write/clip_writer.h"
 #include "io/gltf_write/copied_materials.h"
+#include "io/gltf_write/lists.h"
 #include "io/gltf_write/mesh_writer.h"
 #include "io/gltf_write/rig_writer.h"
 #include "io/internal/staged_file.h"
@@ -26,18 +27,6 @@ constexpr std::array<std::array<double, 3>, 8> kColors = {{{0.30, 0.62, 0.22},
                                                            {0.82, 0.68, 0.42},
                                                            {0.52, 0.28, 0.62},
                                                            {0.55, 0.66, 0.24}}};
-
-Json numbers(std::span<const float> values) {
-  Json array = Json::array();
-  for (const float value : values) array.push_back(static_cast<double>(value));
-  return array;
-}
-
-Index append(Json& document, const char* list_name, Json entry) {
-  Json& list = list_of(document, list_name);
-  list.push_back(std::move(entry));
-  return static_cast<Index>(list.size() - 1);
-}
 
 class NewDocument {
  public:
@@ -117,8 +106,8 @@ class NewDocument {
     }
     if (!mesh.morph_targets.empty()) {
       gltf_mesh["weights"] =
-          numbers({character_.rest_morph_weights.data() + mesh.first_morph_weight,
-                   mesh.morph_targets.size()});
+          numbers_of({character_.rest_morph_weights.data() + mesh.first_morph_weight,
+                      mesh.morph_targets.size()});
       Json names = Json::array();
       for (const MorphTarget& target : mesh.morph_targets) names.push_back(target.name);
       gltf_mesh["extras"]["targetNames"] = std::move(names);
@@ -173,7 +162,7 @@ class NewDocument {
 
   void add_material(const BaseColour& colour, const std::string& name,
                     const std::vector<Index>& image_of) {
-    Json pbr = {{"baseColorFactor", numbers({colour.factor.data(), 4})},
+    Json pbr = {{"baseColorFactor", numbers_of({colour.factor.data(), 4})},
                 {"metallicFactor", 0.0},
                 {"roughnessFactor", 0.8}};
     const bool has_image = colour.image < image_of.size() && image_of[colour.image] != kNone;

@@ -3,33 +3,17 @@
 #include <utility>
 
 #include "io/gltf/accessors.h"
+#include "io/gltf_write/lists.h"
 
 namespace sunder::gltf {
-namespace {
-
-Json numbers(std::span<const float> values) {
-  Json array = Json::array();
-  for (const float value : values) array.push_back(static_cast<double>(value));
-  return array;
-}
-
-std::uint32_t append(Json& document, const char* list_name, Json entry) {
-  Json& list = document[list_name];
-  if (list.is_null()) list = Json::array();
-  list.push_back(std::move(entry));
-  return static_cast<std::uint32_t>(list.size() - 1);
-}
-
-}  // namespace
-
 Json bone_node(const Bone& bone) {
   Json node = {{"name", bone.name}};
   const BoneTransform& rest = bone.rest;
-  if (!rest.translation.isZero(0)) node["translation"] = numbers({rest.translation.data(), 3});
+  if (!rest.translation.isZero(0)) node["translation"] = numbers_of({rest.translation.data(), 3});
   const Quatf rotation = rest.rotation.normalized();
   if (rotation.coeffs() != Quatf::Identity().coeffs())
-    node["rotation"] = numbers({rotation.coeffs().data(), 4});
-  if (rest.scale != Vec3f::Ones()) node["scale"] = numbers({rest.scale.data(), 3});
+    node["rotation"] = numbers_of({rotation.coeffs().data(), 4});
+  if (rest.scale != Vec3f::Ones()) node["scale"] = numbers_of({rest.scale.data(), 3});
   return node;
 }
 

@@ -21,7 +21,7 @@ std::string numbers(std::span<const double> values) {
   return text;
 }
 
-std::string number(double value) { return numbers({&value, 1}); }
+std::string shortest_number(double value) { return numbers({&value, 1}); }
 
 void append_origin(std::string& text, const OriginTag& origin) {
   text += "<origin xyz=\"" + numbers(origin.xyz) + "\" rpy=\"" + numbers(origin.rpy) + "\"/>";
@@ -48,9 +48,10 @@ void append_joint(std::string& text, const JointTag& joint, std::uint32_t index,
   if (joint.axis) text += "<axis xyz=\"" + numbers(*joint.axis) + "\"/>";
   // urdfdom requires limits where Sunder does not; they are not used then.
   const LimitTag limit = joint.limit.value_or(LimitTag{});
-  text += "<limit lower=\"" + number(limit.lower.value_or(0)) + "\" upper=\"" +
-          number(limit.upper.value_or(0)) + "\" effort=\"" + number(limit.effort) +
-          "\" velocity=\"" + number(limit.velocity) + "\"/>";
+  text += "<limit lower=\"" + shortest_number(limit.lower.value_or(0)) + "\" upper=\"" +
+          shortest_number(limit.upper.value_or(0)) + "\" effort=\"" +
+          shortest_number(limit.effort) + "\" velocity=\"" + shortest_number(limit.velocity) +
+          "\"/>";
   text += "</joint>\n";
 }
 

@@ -10,7 +10,7 @@
 namespace sunder::particles {
 namespace {
 
-constexpr int kMostIterations = 64;
+constexpr int kMostSubstepIterations = 64;
 /// Greatest decay of a spring per substep. Stronger damping between neighbours would make the
 /// system ill-conditioned.
 constexpr double kMostDecay = 16, kMostDecayOfPairs = 2;
@@ -125,7 +125,7 @@ const Columns& SubstepSprings::solve(const Columns& relative, const Columns& dis
   residual_ -= product_;
   double size = weighted(residual_);
   direction_ = residual_ * diagonal_.cwiseInverse().asDiagonal();
-  for (int iteration = 0; iteration < kMostIterations && size > enough; ++iteration) {
+  for (int iteration = 0; iteration < kMostSubstepIterations && size > enough; ++iteration) {
     multiply(direction_, product_, held);
     const double along = direction_.cwiseProduct(product_).sum();
     if (!(along > 0)) return solved_;

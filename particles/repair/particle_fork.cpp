@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/internal/out_of_memory.h"
 #include "particles/clusters/fork_link.h"
 #include "particles/clusters/gradients.h"
 #include "particles/clusters/set_data.h"
@@ -18,10 +19,6 @@ using particles::StructureOf;
 
 Status refuse(const char* why) {
   return Status::failure(StatusCode::invalid_argument, kNone, "%s", why);
-}
-
-Status out_of_memory() {
-  return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
 }
 
 /// A copy with the work that is left.

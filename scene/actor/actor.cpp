@@ -8,6 +8,7 @@
 #include <system_error>
 #include <utility>
 
+#include "core/internal/out_of_memory.h"
 #include "scene/snapshot/check_pose.h"
 
 namespace sunder::scene {
@@ -28,10 +29,6 @@ class Stopwatch {
   double& sum_;
   std::chrono::steady_clock::time_point begin_;
 };
-
-Status out_of_memory() {
-  return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
-}
 
 }  // namespace
 

@@ -12,9 +12,9 @@ namespace {
 constexpr double kNowhere = std::numeric_limits<double>::infinity();
 
 /// A half-line, clipped to boxes of a frame.
-class Line {
+class RayLine {
  public:
-  Line(const Vec3d& base, const Vec3d& way, const Frame& frame)
+  RayLine(const Vec3d& base, const Vec3d& way, const Frame& frame)
       : base_(frame.place_of(base)),
         way_(multiply(frame.axes, way)),
         per_step_(way_.cwiseInverse()),
@@ -109,7 +109,7 @@ void remove_repeated(const Vec3d& way, const Vec3d& base, std::vector<FoundPlace
 std::optional<FoundPlace> first_on_line(const Vec3d& base, const Vec3d& way, double most,
                                         PosedSurface& surface) {
   const Frame frame = surface.frame();
-  const Line line(base, way, frame);
+  const RayLine line(base, way, frame);
   std::optional<FoundPlace> first;
   double limit = most;
   const auto bound = [&](const FrameBox& box) { return line.entry(box, limit); };
@@ -128,7 +128,7 @@ std::optional<FoundPlace> first_on_line(const Vec3d& base, const Vec3d& way, dou
 void all_on_segment(const Vec3d& base, const Vec3d& way, PosedSurface& surface,
                     std::vector<FoundPlace>& found) {
   const Frame frame = surface.frame();
-  const Line line(base, way, frame);
+  const RayLine line(base, way, frame);
   found.clear();
   const auto bound = [&](const FrameBox& box) { return line.entry(box, 1); };
   surface.visit_faces(frame, bound, [&](Index face) {

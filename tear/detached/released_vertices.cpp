@@ -12,7 +12,7 @@ void add(Index mesh, const Triangle& triangle, const Surface& surface, VerticesO
     if (vertex >= is_shared.size() || !is_shared[vertex]) vertices[mesh].push_back(vertex);
 }
 
-void sort_and_unite(VerticesOfMeshes& vertices) {
+void sort_and_unite_each(VerticesOfMeshes& vertices) {
   for (std::vector<Index>& of_mesh : vertices) {
     std::sort(of_mesh.begin(), of_mesh.end());
     of_mesh.erase(std::unique(of_mesh.begin(), of_mesh.end()), of_mesh.end());
@@ -27,7 +27,7 @@ VerticesOfMeshes released_vertices(const EditLog::Mark& begin, const SurfaceEdit
     add(editor.surface().triangle(before.triangle).mesh, before.vertices, editor.surface(),
         vertices);
   });
-  sort_and_unite(vertices);
+  sort_and_unite_each(vertices);
   return vertices;
 }
 
@@ -36,7 +36,7 @@ VerticesOfMeshes released_vertices(const SurfaceEditor::Redo& redo, const Surfac
   for (const TriangleChange& changed : redo.changed)
     add(editor.surface().triangle(changed.triangle).mesh,
         editor.connectivity.vertices_of(changed.triangle), editor.surface(), vertices);
-  sort_and_unite(vertices);
+  sort_and_unite_each(vertices);
   return vertices;
 }
 

@@ -15,7 +15,7 @@ namespace sunder::tear {
 namespace {
 
 /// A sweep that gets nowhere this many times in a segment gives up.
-constexpr int kMostFutileTurns = 64;
+constexpr int kMostFutileVisits = 64;
 
 /// One segment of a stroke on its way.
 class NearestLayerSegment {
@@ -150,7 +150,7 @@ void NearestLayerSegment::tear() {
   double progress = 0;
   if (tip_.point != kNone)
     progress = std::max(0.0, tear_piece(tip_.point, work_.editor.mark()).progress);
-  for (int futile = 0; progress < 1 && futile < kMostFutileTurns;) {
+  for (int futile = 0; progress < 1 && futile < kMostFutileVisits;) {
     auto contact = find_contact(plane_, progress, work_, tip_);
     if (!contact) break;
     if (const auto lip = std::exchange(lip_progress_, std::nullopt); lip && *lip < progress)

@@ -11,9 +11,9 @@
 namespace sunder::tear {
 namespace {
 
-using Corners = std::array<Vec3d, 3>;
+using EntryCorners = std::array<Vec3d, 3>;
 
-Corners posed_corners(const SurfaceEditor& editor, PosedPoints& posed, Index triangle) {
+EntryCorners posed_corners(const SurfaceEditor& editor, PosedPoints& posed, Index triangle) {
   const Index* points = &editor.surface().corner_point[3 * triangle];
   return {posed.position(editor, points[0]), posed.position(editor, points[1]),
           posed.position(editor, points[2])};
@@ -28,7 +28,7 @@ struct PlaneSection {
   std::array<End, 2> ends;
 };
 
-std::optional<PlaneSection> cross_triangle(const BladePlane& plane, const Corners& corners) {
+std::optional<PlaneSection> cross_triangle(const BladePlane& plane, const EntryCorners& corners) {
   std::array<double, 3> distance;
   for (std::size_t k = 0; k < 3; ++k) distance[k] = plane.distance(corners[k]);
   PlaneSection section;
@@ -97,7 +97,7 @@ class Segment {
 
   /// The intersection with a triangle, including its edges so that the segment cannot pass between
   /// two faces. Moeller and Trumbore 1997.
-  [[nodiscard]] std::optional<SurfaceHit> hit(Index triangle, const Corners& corners,
+  [[nodiscard]] std::optional<SurfaceHit> hit(Index triangle, const EntryCorners& corners,
                                               double& depth) const {
     const Vec3d ab = corners[1] - corners[0], ac = corners[2] - corners[0];
     const Vec3d h = direction_.cross(ac);
@@ -155,8 +155,9 @@ struct Contact {
   SweepCoordinates low;  ///< Coordinates of the hit.
 };
 
-std::optional<Contact> contact_with(Index triangle, const Corners& corners, const BladePlane& plane,
-                                    double progress, const BladePlane::HalfPlane& not_before) {
+std::optional<Contact> contact_with(Index triangle, const EntryCorners& corners,
+                                    const BladePlane& plane, double progress,
+                                    const BladePlane::HalfPlane& not_before) {
   const auto section = cross_triangle(plane, corners);
   if (!section) return std::nullopt;
   const Vec2d &a = section->ends[0].position, &b = section->ends[1].position;

@@ -36,7 +36,7 @@ bool is_on_torn_lip(Index corner, const SurfaceEditor& editor) {
 }
 
 /// The corners of a face, in any space.
-struct Corners {
+struct SnappedCorners {
   std::array<Vec3d, 3> at;
 
   [[nodiscard]] double longest_side() const {
@@ -51,8 +51,8 @@ struct Corners {
   }
 };
 
-Corners posed_corners(Index face, const SurfaceEditor& editor, PosedPoints& posed) {
-  Corners corners;
+SnappedCorners posed_corners(Index face, const SurfaceEditor& editor, PosedPoints& posed) {
+  SnappedCorners corners;
   for (Index k = 0; k < 3; ++k)
     corners.at[k] = posed.position(editor, editor.surface().corner_point[3 * face + k]);
   return corners;
@@ -63,7 +63,7 @@ Vec3d place_in_origin(Index corner, const SurfaceEditor& editor) {
   const auto [a, b, c] = editor.source_barycentric(corner);
   return {a, b, c};
 }
-Corners corners_in_origin(Index face, const SurfaceEditor& editor) {
+SnappedCorners corners_in_origin(Index face, const SurfaceEditor& editor) {
   return {{place_in_origin(3 * face, editor), place_in_origin(3 * face + 1, editor),
            place_in_origin(3 * face + 2, editor)}};
 }
@@ -103,7 +103,7 @@ double snapped_height(Index corner, Snapping snapping, const SurfaceEditor& edit
   if (snapping == Snapping::tight) return stored_height(corner, editor);
   const Index base = Surface::next(corner);
   if (snapping == Snapping::near || !is_torn_lip(base, editor)) return kSnapEdges;
-  const Corners face = posed_corners(corner / 3, editor, posed);
+  const SnappedCorners face = posed_corners(corner / 3, editor, posed);
   const double height = face.height_over(base % 3), sliver = kSliverSizes * face.longest_side();
   const double in_origin = corners_in_origin(corner / 3, editor).height_over(base % 3);
   if (!(height > 0 && in_origin > 0)) return kFarthestSnapEdges;
@@ -114,11 +114,11 @@ bool is_at_lip_corner(const SurfaceHit& hit, Index corner, Snapping snapping,
                       const SurfaceEditor& editor, PosedPoints& posed) {
   if (snapping == Snapping::tight || snapping == Snapping::near || !is_on_torn_lip(corner, editor))
     return false;
-  const Corners in_origin = corners_in_origin(hit.triangle, editor);
+  const SnappedCorners in_origin = corners_in_origin(hit.triangle, editor);
   Vec3d place = Vec3d::Zero();
   for (std::size_t k = 0; k < 3; ++k) place += hit.barycentric[k] * in_origin.at[k];
   if (norm(Vec3d(place - in_origin.at[corner % 3])) < kSnapEdges) return true;
-  const Corners face = posed_corners(hit.triangle, editor, posed);
+  const SnappedCorners face = posed_corners(hit.triangle, editor, posed);
   return norm(Vec3d(hit.position - face.at[corner % 3])) < kSliverSizes * face.longest_side();
 }
 

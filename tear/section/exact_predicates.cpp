@@ -62,7 +62,7 @@ struct Expansion {
   }
 };
 
-Expansion<2> difference(double a, double b) {
+Expansion<2> exact_difference(double a, double b) {
   const Pair pair = two_sum(a, -b);
   Expansion<2> result;
   result.append(pair.error);
@@ -71,7 +71,7 @@ Expansion<2> difference(double a, double b) {
 }
 
 template <int N, int M>
-Expansion<2 * N * M> product(const Expansion<N>& a, const Expansion<M>& b) {
+Expansion<2 * N * M> exact_product(const Expansion<N>& a, const Expansion<M>& b) {
   Expansion<2 * N * M> result;
   for (int i = 0; i < a.count; ++i)
     for (int j = 0; j < b.count; ++j) {
@@ -84,18 +84,18 @@ Expansion<2 * N * M> product(const Expansion<N>& a, const Expansion<M>& b) {
 }
 
 /// ax * by - ay * bx.
-Expansion<16> cross(const Expansion<2>& ax, const Expansion<2>& ay, const Expansion<2>& bx,
-                    const Expansion<2>& by) {
+Expansion<16> exact_cross(const Expansion<2>& ax, const Expansion<2>& ay, const Expansion<2>& bx,
+                          const Expansion<2>& by) {
   Expansion<16> result;
-  result.add(product(ax, by));
-  result.add(product(ay, bx), -1);
+  result.add(exact_product(ax, by));
+  result.add(exact_product(ay, bx), -1);
   return result;
 }
 
-Expansion<16> squared_norm(const Expansion<2>& x, const Expansion<2>& y) {
+Expansion<16> exact_squared_norm(const Expansion<2>& x, const Expansion<2>& y) {
   Expansion<16> result;
-  result.add(product(x, x));
-  result.add(product(y, y));
+  result.add(exact_product(x, x));
+  result.add(exact_product(y, y));
   return result;
 }
 
@@ -104,19 +104,19 @@ Expansion<16> squared_norm(const Expansion<2>& x, const Expansion<2>& y) {
 namespace predicates {
 
 int exact_orientation(const Vec2d& a, const Vec2d& b, const Vec2d& c) {
-  return cross(difference(a.x(), c.x()), difference(a.y(), c.y()), difference(b.x(), c.x()),
-               difference(b.y(), c.y()))
+  return exact_cross(exact_difference(a.x(), c.x()), exact_difference(a.y(), c.y()),
+                     exact_difference(b.x(), c.x()), exact_difference(b.y(), c.y()))
       .sign();
 }
 
 int exact_in_circle(const Vec2d& a, const Vec2d& b, const Vec2d& c, const Vec2d& d) {
-  const auto ax = difference(a.x(), d.x()), ay = difference(a.y(), d.y());
-  const auto bx = difference(b.x(), d.x()), by = difference(b.y(), d.y());
-  const auto cx = difference(c.x(), d.x()), cy = difference(c.y(), d.y());
+  const auto ax = exact_difference(a.x(), d.x()), ay = exact_difference(a.y(), d.y());
+  const auto bx = exact_difference(b.x(), d.x()), by = exact_difference(b.y(), d.y());
+  const auto cx = exact_difference(c.x(), d.x()), cy = exact_difference(c.y(), d.y());
   Expansion<3 * 512> result;
-  result.add(product(squared_norm(ax, ay), cross(bx, by, cx, cy)));
-  result.add(product(squared_norm(bx, by), cross(cx, cy, ax, ay)));
-  result.add(product(squared_norm(cx, cy), cross(ax, ay, bx, by)));
+  result.add(exact_product(exact_squared_norm(ax, ay), exact_cross(bx, by, cx, cy)));
+  result.add(exact_product(exact_squared_norm(bx, by), exact_cross(cx, cy, ax, ay)));
+  result.add(exact_product(exact_squared_norm(cx, cy), exact_cross(ax, ay, bx, by)));
   return result.sign();
 }
 

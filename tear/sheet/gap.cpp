@@ -12,10 +12,10 @@
 namespace sunder::tear {
 namespace {
 
-using Word = CellSides::Word;
+using GapWord = CellSides::Word;
 
 /// References to the posed corners of a face: copies would be read before they are stored.
-struct Corners {
+struct GapCorners {
   const Vec3d &a, &b, &c;
 
   [[nodiscard]] Vec3d area() const { return 0.5 * (b - a).cross(c - a); }
@@ -23,7 +23,7 @@ struct Corners {
 };
 
 /// All points must be covered.
-Corners posed_corners(Index face, CellSides& sides) {
+GapCorners posed_corners(Index face, CellSides& sides) {
   const Index* points = &sides.editor().surface().corner_point[3 * face];
   const auto at = [&](Index point) -> const Vec3d& {
     return sides.posed().position(sides.editor(), point);
@@ -32,7 +32,7 @@ Corners posed_corners(Index face, CellSides& sides) {
 }
 
 /// The corners of a face that is as it was.
-Corners corners_of(const CellFace& face, const CellSides& sides) {
+GapCorners corners_of(const CellFace& face, const CellSides& sides) {
   return {sides.position(face.places[0]), sides.position(face.places[1]),
           sides.position(face.places[2])};
 }
@@ -133,7 +133,7 @@ class FacesInside {
     areas.reserve(faces_.size() + (end - first));
     sides_.posed().cover(editor.surface().point_count());
     double area = 0;
-    const auto add = [&](Index face, const Corners& corners) {
+    const auto add = [&](Index face, const GapCorners& corners) {
       const Vec3d of_face = corners.area();
       inside.push_back(face);
       areas.push_back(of_face);
@@ -141,7 +141,7 @@ class FacesInside {
     };
     const auto add_if_inside = [&](Index face, const CellSides::OfFace& of) {
       if (sides_.is_beyond(of)) return;
-      const Corners corners = posed_corners(face, sides_);
+      const GapCorners corners = posed_corners(face, sides_);
       if (has_middle_inside(corners, of)) add(face, corners);
     };
     for (Index i = 0; i < faces_.size(); ++i) {
@@ -165,7 +165,7 @@ class FacesInside {
   }
 
  private:
-  [[nodiscard]] bool has_middle_inside(const Corners& corners,
+  [[nodiscard]] bool has_middle_inside(const GapCorners& corners,
                                        const CellSides::OfFace& ancestor) const {
     const Vec3d middle = corners.middle();
     bool is_inside = true;
@@ -176,8 +176,8 @@ class FacesInside {
     return is_inside;
   }
 
-  [[nodiscard]] Word doubtful(const CellSides::OfFace& ancestor, Index word) const {
-    return has_turned_edges_ ? ~Word{0} : ancestor.doubtful(word);
+  [[nodiscard]] GapWord doubtful(const CellSides::OfFace& ancestor, Index word) const {
+    return has_turned_edges_ ? ~GapWord{0} : ancestor.doubtful(word);
   }
 
   CellSides& sides_;
@@ -191,7 +191,7 @@ class FacesInside {
 bool is_edge_in_cell(const CellFace& face, Index k, CellSides& sides) {
   const Index l = (k + 1) % 3;
   const CellSides::OfFace of = sides.at(face.places);
-  Word beyond = 0;
+  GapWord beyond = 0;
   for (Index w = 0; w < sides.word_count(); ++w) beyond |= of.outside[k][w] & of.outside[l][w];
   if (beyond != 0) return false;
   const Vec3d &a = sides.position(face.places[k]), &b = sides.position(face.places[l]);
@@ -218,7 +218,7 @@ bool is_face_in_cell(CellFace& face, CellSides& sides) {
   // What is left around a corner inside always has an area.
   if (sides.has_corner_surely_inside(of)) return true;
   bool is_in = true;
-  const Corners corners = corners_of(face, sides);
+  const GapCorners corners = corners_of(face, sides);
   const ScratchMemory::Frame memory_of_step(sides.memory());
   Polygon polygon(sides.memory());
   for (Index w = 0; w < sides.word_count(); ++w)

@@ -19,7 +19,7 @@ namespace {
 
 /// The place where the plane of a sheet crosses an edge. The edge has the direction of its lower
 /// half-edge, so that both faces compute the same numbers.
-struct Crossing {
+struct SheetCrossing {
   Index half_edge = kNone;
   Index sheet = kNone;
   double fraction = 0;
@@ -29,14 +29,14 @@ struct Crossing {
   double slant = 1;
   Index point = kNone;  ///< Set when the crossing is imprinted.
 
-  [[nodiscard]] bool is_before(const Crossing& other) const {
+  [[nodiscard]] bool is_before(const SheetCrossing& other) const {
     if (half_edge != other.half_edge) return half_edge < other.half_edge;
     return sheet < other.sheet;
   }
 };
 
 /// A face as it was before any edge was split.
-struct Face {
+struct SheetFace {
   Index triangle = kNone;
   std::array<Index, 3> points = {};
   std::array<Index, 3> edges = {};       ///< The half-edges, or their twins if those are lower.
@@ -48,16 +48,16 @@ using CornerSides = std::array<int, 3>;
 
 /// One end of a line in a face: at a corner on the plane, at a crossing of one of its edges, or at
 /// a place where the sheet meets a bound.
-struct LineEnd {
+struct SheetLineEnd {
   Vec3d position = Vec3d::Zero();
   Index corner = kNone;  ///< Point.
   Index crossed_edge = kNone;
   Index bound = kNone;  ///< Index in Sheet::bounds.
 };
 
-class Imprint {
+class SheetImprinter {
  public:
-  Imprint(std::span<const Sheet> sheets, SurfaceEditor& editor, PosedPoints& posed)
+  SheetImprinter(std::span<const Sheet> sheets, SurfaceEditor& editor, PosedPoints& posed)
       : sheets_(sheets),
         editor_(editor),
         posed_(posed),
@@ -77,14 +77,14 @@ class Imprint {
     for (const Index face : faces) add_face(face);
     split_edges();
     index_children();
-    for (const Face& face : faces_) draw_lines(face);
+    for (const SheetFace& face : faces_) draw_lines(face);
     return std::move(result_);
   }
 
  private:
   void add_face(Index triangle) {
     const Surface& surface = editor_.surface();
-    Face face{triangle, {}, {}, {}};
+    SheetFace face{triangle, {}, {}, {}};
     bool is_met = false;
     for (Index k = 0; k < 3; ++k) {
       const Index h = 3 * triangle + k, twin = surface.twin[h];
@@ -97,14 +97,14 @@ class Imprint {
       is_met = is_met || is_outside(face, sheet, sides) || is_across(sides);
       for (Index k = 0; k < 3; ++k) {
         if (sides[k] * sides[(k + 1) % 3] >= 0) continue;
-        const Crossing crossing = crossing_of(face, k, sheet);
+        const SheetCrossing crossing = crossing_of(face, k, sheet);
         if (is_within_bounds(sheet, crossing.position)) crossings_.push_back(crossing);
       }
     }
     if (is_met) faces_.push_back(face);
   }
 
-  [[nodiscard]] CornerSides sides_of(const Face& face, Index sheet) {
+  [[nodiscard]] CornerSides sides_of(const SheetFace& face, Index sheet) {
     posed_.compare_with(sheets_[sheet].plane);
     CornerSides sides;
     for (std::size_t k = 0; k < 3; ++k)
@@ -119,7 +119,7 @@ class Imprint {
   }
   /// Whether a face that is not across belongs to the outside of the plane. If it lies in the
   /// plane, it belongs to the side of the body behind it.
-  [[nodiscard]] bool is_outside(const Face& face, Index sheet, const CornerSides& sides) {
+  [[nodiscard]] bool is_outside(const SheetFace& face, Index sheet, const CornerSides& sides) {
     if (*std::max_element(sides.begin(), sides.end()) > 0) return false;
     if (*std::min_element(sides.begin(), sides.end()) < 0) return true;
     const Vec3d a = posed_.position(editor_, face.points[0]),
@@ -129,7 +129,7 @@ class Imprint {
   }
 
   /// Where the sheet's plane crosses edge k of a face, whose ends are on both sides of it.
-  [[nodiscard]] Crossing crossing_of(const Face& face, Index k, Index sheet) {
+  [[nodiscard]] SheetCrossing crossing_of(const SheetFace& face, Index k, Index sheet) {
     const Index from = face.points[face.is_reversed[k] ? (k + 1) % 3 : k],
                 to = face.points[face.is_reversed[k] ? k : (k + 1) % 3];
     const Vec3d at_from = posed_.position(editor_, from), at_to = posed_.position(editor_, to);
@@ -150,9 +150,9 @@ class Imprint {
 
   void split_edges() {
     std::sort(crossings_.begin(), crossings_.end(),
-              [](const Crossing& a, const Crossing& b) { return a.is_before(b); });
+              [](const SheetCrossing& a, const SheetCrossing& b) { return a.is_before(b); });
     crossings_.erase(std::unique(crossings_.begin(), crossings_.end(),
-                                 [](const Crossing& a, const Crossing& b) {
+                                 [](const SheetCrossing& a, const SheetCrossing& b) {
                                    return !a.is_before(b) && !b.is_before(a);
                                  }),
                      crossings_.end());
@@ -171,12 +171,12 @@ class Imprint {
       edges.push_back({begin, end, editor_.surface().corner_point[h],
                        editor_.surface().corner_point[Surface::next(h)], stored_part(h, editor_)});
     }
-    ScratchVector<Crossing*> along(&editor_.scratch());
+    ScratchVector<SheetCrossing*> along(&editor_.scratch());
     along.reserve(sheets_.size());
     for (const Edge& edge : edges) {
       along.clear();
       for (std::size_t i = edge.begin; i < edge.end; ++i) along.push_back(&crossings_[i]);
-      std::sort(along.begin(), along.end(), [](const Crossing* a, const Crossing* b) {
+      std::sort(along.begin(), along.end(), [](const SheetCrossing* a, const SheetCrossing* b) {
         return a->fraction != b->fraction ? a->fraction < b->fraction : a->sheet < b->sheet;
       });
       split_edge(edge.from, edge.to, edge.stored, along);
@@ -185,10 +185,10 @@ class Imprint {
 
   /// @param stored  the least fraction of the edge between two places that are stored as different
   ///         ones.
-  void split_edge(Index from, Index to, double stored, std::span<Crossing* const> along) {
+  void split_edge(Index from, Index to, double stored, std::span<SheetCrossing* const> along) {
     Index last = from;
     double last_fraction = 0;
-    for (Crossing* crossing : along) {
+    for (SheetCrossing* crossing : along) {
       const double snap =
           std::min(kFarthestSnapEdges,
                    stored * crossing->slant);  // ends nearer than this are stored on the sheet
@@ -221,10 +221,10 @@ class Imprint {
   }
 
   [[nodiscard]] Index point_at_crossing(Index half_edge, Index sheet) const {
-    const Crossing wanted{half_edge, sheet, 0, Vec3d::Zero(), 1, kNone};
-    const auto found =
-        std::lower_bound(crossings_.begin(), crossings_.end(), wanted,
-                         [](const Crossing& a, const Crossing& b) { return a.is_before(b); });
+    const SheetCrossing wanted{half_edge, sheet, 0, Vec3d::Zero(), 1, kNone};
+    const auto found = std::lower_bound(
+        crossings_.begin(), crossings_.end(), wanted,
+        [](const SheetCrossing& a, const SheetCrossing& b) { return a.is_before(b); });
     return found != crossings_.end() && !wanted.is_before(*found) ? found->point : kNone;
   }
 
@@ -241,9 +241,9 @@ class Imprint {
   /// inside of its plane is on the left: the line across the face, or, if it belongs to the
   /// outside, its edges on the plane. Those of two faces outside cancel each other.
   template <class Visit>
-  void for_each_line(const Face& face, Index sheet, Visit visit) {
+  void for_each_line(const SheetFace& face, Index sheet, Visit visit) {
     const CornerSides sides = sides_of(face, sheet);
-    LineEnd from, to;
+    SheetLineEnd from, to;
     if (is_across(sides)) {
       for (Index k = 0; k < 3; ++k) {
         const int next = sides[(k + 1) % 3], previous = sides[(k + 2) % 3];
@@ -251,7 +251,7 @@ class Imprint {
           (previous > 0 ? from : to) = at_corner(face, k);
         else if (sides[k] * next < 0)
           (next < 0 ? from : to) =
-              LineEnd{crossing_of(face, k, sheet).position, kNone, face.edges[k], kNone};
+              SheetLineEnd{crossing_of(face, k, sheet).position, kNone, face.edges[k], kNone};
       }
       if (clip(sheet, from, to)) visit(from, to, kNone);
     } else if (is_outside(face, sheet, sides)) {
@@ -263,12 +263,12 @@ class Imprint {
       }
     }
   }
-  [[nodiscard]] LineEnd at_corner(const Face& face, Index k) {
+  [[nodiscard]] SheetLineEnd at_corner(const SheetFace& face, Index k) {
     return {posed_.position(editor_, face.points[k]), face.points[k], kNone, kNone};
   }
 
   /// Clips a line by the bounds of its sheet. @return false if nothing is left.
-  [[nodiscard]] bool clip(Index sheet, LineEnd& from, LineEnd& to) const {
+  [[nodiscard]] bool clip(Index sheet, SheetLineEnd& from, SheetLineEnd& to) const {
     const Vec3d begin = from.position, way = to.position - from.position;
     double first = 0, last = 1;
     const auto& bounds = sheets_[sheet].bounds;
@@ -282,17 +282,18 @@ class Imprint {
           at_begin == at_end ? 0.0 : std::clamp(at_begin / (at_begin - at_end), 0.0, 1.0);
       if (!has_begin && at >= first) {
         first = at;
-        from = LineEnd{begin + at * way, kNone, kNone, i};
+        from = SheetLineEnd{begin + at * way, kNone, kNone, i};
       } else if (!has_end && at <= last) {
         last = at;
-        to = LineEnd{begin + at * way, kNone, kNone, i};
+        to = SheetLineEnd{begin + at * way, kNone, kNone, i};
       }
     }
     return first < last;
   }
 
   /// @param edge  along which the line goes; kNone for a line across the face.
-  Index point_of(const LineEnd& end, const Face& face, Index sheet, Index edge, FaceLines& lines) {
+  Index point_of(const SheetLineEnd& end, const SheetFace& face, Index sheet, Index edge,
+                 FaceLines& lines) {
     if (end.corner != kNone) return end.corner;
     if (end.bound == kNone) return point_at_crossing(end.crossed_edge, sheet);
     const Index other = sheets_[sheet].bounds[end.bound].sheet;
@@ -306,7 +307,7 @@ class Imprint {
     return corners_[key] = lines.imprint(end.position);
   }
 
-  void draw_lines(const Face& face) {
+  void draw_lines(const SheetFace& face) {
     const auto begin = std::lower_bound(children_.begin(), children_.end(),
                                         std::array<Index, 2>{face.triangle, 0});
     const auto end =
@@ -315,7 +316,7 @@ class Imprint {
                     editor_, posed_);
     bool is_crossed = false, is_blocked = false;
     for (Index sheet = 0; sheet < sheets_.size(); ++sheet)
-      for_each_line(face, sheet, [&](const LineEnd& from, const LineEnd& to, Index edge) {
+      for_each_line(face, sheet, [&](const SheetLineEnd& from, const SheetLineEnd& to, Index edge) {
         is_crossed = true;
         const Index first = point_of(from, face, sheet, edge, lines),
                     last = point_of(to, face, sheet, edge, lines);
@@ -329,8 +330,8 @@ class Imprint {
   std::span<const Sheet> sheets_;
   SurfaceEditor& editor_;
   PosedPoints& posed_;
-  ScratchVector<Face> faces_;
-  ScratchVector<Crossing> crossings_;
+  ScratchVector<SheetFace> faces_;
+  ScratchVector<SheetCrossing> crossings_;
   ScratchVector<std::array<Index, 2>> children_;  ///< (face, child), without the face itself.
   std::pmr::map<std::array<Index, 3>, Index> corners_;
   SheetImprint result_;
@@ -340,7 +341,7 @@ class Imprint {
 
 SheetImprint imprint_sheets(std::span<const Sheet> sheets, std::span<const Index> faces,
                             SurfaceEditor& editor, PosedPoints& posed) {
-  return Imprint(sheets, editor, posed).run(faces);
+  return SheetImprinter(sheets, editor, posed).run(faces);
 }
 
 }  // namespace sunder::tear

@@ -14,7 +14,7 @@ namespace sunder::tear {
 namespace {
 
 /// The line in which a sheet meets a face.
-struct Line {
+struct SectionLine {
   double weight = 0;  ///< Of the wanted bones, the mean of both ends.
   std::array<Vec3d, 2> ends = {Vec3d(Vec3d::Zero()), Vec3d(Vec3d::Zero())};
   bool is_empty = true;    ///< The bounds exclude all of it.
@@ -23,9 +23,9 @@ struct Line {
 
 /// Where the plane crosses the edges of a face. The edge is read in the direction of its lower
 /// half-edge, so that both faces compute the same place.
-class CrossedEdges {
+class SectionedEdges {
  public:
-  CrossedEdges(const Sheet& sheet, const SurfaceEditor& editor, PosedPoints& posed)
+  SectionedEdges(const Sheet& sheet, const SurfaceEditor& editor, PosedPoints& posed)
       : sheet_(sheet), surface_(editor.surface()), editor_(editor), posed_(posed) {}
 
   /// @return whether the plane crosses the edge of a half-edge.
@@ -71,7 +71,7 @@ class CrossedEdges {
 };
 
 /// Clips a line by the bounds of its sheet.
-void clip(const Sheet& sheet, Line& line) {
+void clip(const Sheet& sheet, SectionLine& line) {
   for (const Sheet::Bound& bound : sheet.bounds) {
     const std::array<bool, 2> is_inside = {bound.side.contains(line.ends[0]),
                                            bound.side.contains(line.ends[1])};
@@ -86,7 +86,7 @@ void clip(const Sheet& sheet, Line& line) {
   }
 }
 
-double distance(const Vec3d& place, const Line& line) {
+double distance(const Vec3d& place, const SectionLine& line) {
   const Vec3d along = line.ends[1] - line.ends[0], way = place - line.ends[0];
   const double squared_length = squared_norm(along);
   const double part =
@@ -101,10 +101,10 @@ class Sections {
            const SurfaceEditor& editor, PosedPoints& posed)
       : lines_(faces.size(), &editor.scratch()),
         sets_(static_cast<Index>(faces.size()), editor.scratch()) {
-    CrossedEdges edges(sheet, editor, posed);
+    SectionedEdges edges(sheet, editor, posed);
     const Surface& surface = editor.surface();
     for (Index i = 0; i < faces.size(); ++i) {
-      Line& line = lines_[i];
+      SectionLine& line = lines_[i];
       std::size_t end = 0;
       for (Index h = 3 * faces[i]; h < 3 * faces[i] + 3; ++h) {
         Vec3d place;
@@ -145,12 +145,12 @@ class Sections {
   /// Marks the sections nearest to a place.
   void choose(const Vec3d& place, ScratchVector<bool>& is_chosen) {
     double least = std::numeric_limits<double>::infinity(), farthest = 0;
-    for (const Line& line : lines_) {
+    for (const SectionLine& line : lines_) {
       if (line.is_empty) continue;
       least = std::min(least, distance(place, line));
     }
     for (Index i = 0; i < lines_.size(); ++i) {
-      const Line& line = lines_[i];
+      const SectionLine& line = lines_[i];
       if (line.is_empty) continue;
       farthest = std::max(place.cwiseAbs().maxCoeff(), line.ends[0].cwiseAbs().maxCoeff());
       if (distance(place, line) <= least + kPosedCoordinates * farthest)
@@ -162,7 +162,7 @@ class Sections {
   void choose_first(const Vec3d& normal, const SectionRay& ray, ScratchVector<bool>& is_chosen) {
     const Vec3d in_plane = ray.direction - dot(ray.direction, normal) * normal;
     const Vec3d along = in_plane / norm(in_plane), across = normal.cross(along);
-    const auto distance_to = [&](const Line& line) {
+    const auto distance_to = [&](const SectionLine& line) {
       constexpr double kNowhere = std::numeric_limits<double>::infinity();
       if (line.is_empty) return kNowhere;
       const Vec3d from = line.ends[0] - ray.origin, to = line.ends[1] - ray.origin;
@@ -174,7 +174,7 @@ class Sections {
       return at < 0 ? kNowhere : at;
     };
     double least = std::numeric_limits<double>::max();
-    for (const Line& line : lines_) least = std::min(least, distance_to(line));
+    for (const SectionLine& line : lines_) least = std::min(least, distance_to(line));
     if (least == std::numeric_limits<double>::max()) return;
     const double rounding = kPosedCoordinates * (ray.origin.cwiseAbs().maxCoeff() + least);
     for (Index i = 0; i < lines_.size(); ++i)
@@ -201,7 +201,7 @@ class Sections {
       sets_.unite_with_lesser(i, static_cast<Index>(other - faces.begin()));
   }
 
-  ScratchVector<Line> lines_;  ///< Per face.
+  ScratchVector<SectionLine> lines_;  ///< Per face.
   DisjointSets sets_;
 };
 

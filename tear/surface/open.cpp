@@ -136,7 +136,7 @@ class FansAtPoint {
 };
 
 /// The half-edges of an edge.
-struct Side {
+struct OpenedSide {
   Index left = kNone, right = kNone;
 };
 
@@ -148,12 +148,12 @@ struct OpenedJoint {
 
 /// Groups the fans of a point that a cap will join.
 void join_fans(Index point, std::span<const SectionCorner> section_corners,
-               std::span<const Side> sides, FansAtPoint& fans) {
+               std::span<const OpenedSide> sides, FansAtPoint& fans) {
   const auto first = std::lower_bound(
       section_corners.begin(), section_corners.end(), point,
       [](const SectionCorner& corner, Index wanted) { return corner.point < wanted; });
   for (auto at = first; at != section_corners.end() && at->point == point; ++at) {
-    const Side &arriving = sides[at->arriving], &leaving = sides[at->leaving];
+    const OpenedSide &arriving = sides[at->arriving], &leaving = sides[at->leaving];
     if (arriving.left == kNone || arriving.right == kNone || leaving.left == kNone ||
         leaving.right == kNone)
       continue;
@@ -163,8 +163,8 @@ void join_fans(Index point, std::span<const SectionCorner> section_corners,
 }
 
 /// The half-edges on both sides of each edge.
-ScratchVector<Side> sides_of(std::span<const PointEdge> edges, std::span<const Index> half_edges,
-                             const SurfaceEditor& editor) {
+ScratchVector<OpenedSide> sides_of(std::span<const PointEdge> edges,
+                                   std::span<const Index> half_edges, const SurfaceEditor& editor) {
   const Surface& surface = editor.surface();
   const auto find = [&](std::size_t i) {
     const auto& [from, to] = edges[i];
@@ -173,7 +173,7 @@ ScratchVector<Side> sides_of(std::span<const PointEdge> edges, std::span<const I
                           surface.corner_point[Surface::next(known)] == to;
     return is_right ? known : surface.find_half_edge(from, to);
   };
-  ScratchVector<Side> sides(&editor.scratch());
+  ScratchVector<OpenedSide> sides(&editor.scratch());
   sides.reserve(edges.size());
   for (std::size_t i = 0; i < edges.size(); ++i) {
     const auto& [from, to] = edges[i];
@@ -190,8 +190,8 @@ void open_edges(std::span<const PointEdge> edges, std::span<const Index> half_ed
                 std::vector<LipPair>& lips) {
   const Surface& surface = editor.surface();
   // Found before anything is cut: afterwards neither side leads to the other.
-  const ScratchVector<Side> sides = sides_of(edges, half_edges, editor);
-  for (const Side& side : sides)
+  const ScratchVector<OpenedSide> sides = sides_of(edges, half_edges, editor);
+  for (const OpenedSide& side : sides)
     if (side.left != kNone && side.right != kNone) cut_edge(side.left, editor);
 
   // Where a path goes through a point within the surface, two fans remain, each from one of its

@@ -35,7 +35,7 @@ double length_of(const Clip& clip) {
   return length;
 }
 
-double distance(const Pose& a, const Pose& b) {
+double pose_distance(const Pose& a, const Pose& b) {
   double most = 0;
   for (std::size_t i = 0; i < a.parent_from_bone.size(); ++i) {
     const BoneTransform &one = a.parent_from_bone[i], &other = b.parent_from_bone[i];
@@ -169,7 +169,7 @@ TEST(ClipPlayer, cross_fade_goes_from_one_pose_to_the_other) {
     ASSERT_TRUE(player->evaluate(pose));
     Pose expected = a;
     ASSERT_TRUE(blend_towards(b, 0.25f * static_cast<float>(i), expected));
-    EXPECT_LT(distance(pose, expected), 1e-6) << i;
+    EXPECT_LT(pose_distance(pose, expected), 1e-6) << i;
   }
   EXPECT_EQ(player->layer_count(), 1u);
   EXPECT_EQ(pose.parent_from_bone, b.parent_from_bone);
@@ -191,7 +191,7 @@ TEST(ClipPlayer, an_interrupted_cross_fade_does_not_jump) {
     }
     ASSERT_TRUE(player->advance(0.002));
     ASSERT_TRUE(player->evaluate(pose));
-    largest_step = std::max(largest_step, distance(before, pose));
+    largest_step = std::max(largest_step, pose_distance(before, pose));
     before = pose;
   }
   EXPECT_LT(largest_step, 0.1);

@@ -84,7 +84,7 @@ std::optional<Signature> signature_at(const std::vector<std::string>& lines, std
   return {};
 }
 
-std::string name_in(const std::string& signature) {
+std::string function_name_in(const std::string& signature) {
   const std::string before = signature.substr(0, parameters_begin(signature));
   const std::size_t space = before.find_last_of(" *&");
   return space == std::string::npos ? before : before.substr(space + 1);
@@ -107,7 +107,7 @@ std::vector<ScannedFunction> scan_functions(const std::string& source) {
     std::string body;
     for (std::size_t k = signature->last_line + 1; k < std::min(end, lines.size()); ++k)
       body += lines[k] + '\n';
-    functions.push_back({name_in(signature->text), i + 1, end - i + 1,
+    functions.push_back({function_name_in(signature->text), i + 1, end - i + 1,
                          count_parameters(signature->text), nesting_of(body)});
     i = end;
   }

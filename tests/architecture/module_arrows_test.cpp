@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::set<std::string> words_of(const std::string& text) {
+std::set<std::string> word_set_of(const std::string& text) {
   std::istringstream stream(text);
   std::set<std::string> words;
   for (std::string word; stream >> word;) words.insert(word);
@@ -88,7 +88,7 @@ const std::map<std::string, std::set<std::string>> kThirdPartyOfFile = {
 
 const std::set<std::string> kMayUseOperatingSystem = {"io", "tools"};
 
-const std::set<std::string> kStandardHeaders = words_of(R"(
+const std::set<std::string> kStandardHeaders = word_set_of(R"(
     algorithm any array atomic barrier bit bitset cassert cctype cerrno cfenv cfloat charconv
     chrono cinttypes climits clocale cmath compare complex concepts condition_variable coroutine
     csetjmp csignal cstdarg cstddef cstdint cstdio cstdlib cstring ctime cuchar cwchar cwctype

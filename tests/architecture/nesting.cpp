@@ -6,14 +6,16 @@
 namespace sunder::test {
 namespace {
 
-bool is_in_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
-bool is_space(char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; }
+bool is_part_of_word(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+}
+bool is_blank(char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; }
 
 /// Whether what stands before a brace is the head of a lambda: `[…]`, `[…](…)`, with `mutable` or a
 /// returned type.
 bool ends_in_lambda(std::string_view before) {
   const auto trim = [&] {
-    while (!before.empty() && is_space(before.back())) before.remove_suffix(1);
+    while (!before.empty() && is_blank(before.back())) before.remove_suffix(1);
   };
   const std::size_t arrow = before.rfind("->");
   if (arrow != std::string_view::npos &&
@@ -37,11 +39,11 @@ class StatementReader {
 
  private:
   void skip_space() {
-    while (at_ < text_.size() && is_space(text_[at_])) ++at_;
+    while (at_ < text_.size() && is_blank(text_[at_])) ++at_;
   }
   std::string_view next_word() const {
     std::size_t end = at_;
-    while (end < text_.size() && is_in_word(text_[end])) ++end;
+    while (end < text_.size() && is_part_of_word(text_[end])) ++end;
     return text_.substr(at_, end - at_);
   }
 

@@ -146,7 +146,7 @@ std::vector<std::string> unknown_rooms(const Rooms& rooms) {
 
 const Rooms kExample = {{".", {"upper"}}, {"upper", {"lower"}}, {"lower", {}}};
 
-std::vector<std::string> faults_of(const std::string& file, const std::string& content) {
+std::vector<std::string> room_faults_of(const std::string& file, const std::string& content) {
   const FixtureTree tree(file, content);
   return room_faults(tree.root(), "tear", kExample);
 }
@@ -173,28 +173,28 @@ TEST(RoomArrows, name_rooms_that_exist) {
 }
 
 TEST(RoomArrows, an_arrow_that_is_not_in_the_table_is_found) {
-  EXPECT_THAT(faults_of("tear/lower/a.cpp", "#include \"tear/upper/b.h\""),
+  EXPECT_THAT(room_faults_of("tear/lower/a.cpp", "#include \"tear/upper/b.h\""),
               ElementsAre(HasSubstr("from lower to upper")));
-  EXPECT_THAT(faults_of("tear/lower/a.cpp", "#include \"tear/b.h\""),
+  EXPECT_THAT(room_faults_of("tear/lower/a.cpp", "#include \"tear/b.h\""),
               ElementsAre(HasSubstr("from lower to .")));
-  EXPECT_THAT(faults_of("tear/a.cpp", "#  include  \"tear/lower/b.h\""),
+  EXPECT_THAT(room_faults_of("tear/a.cpp", "#  include  \"tear/lower/b.h\""),
               ElementsAre(HasSubstr("from . to lower")));
-  EXPECT_THAT(faults_of("tear/a.cpp", "#include \"tear/upper/b.h\"\n#include \"tear/c.h\""),
+  EXPECT_THAT(room_faults_of("tear/a.cpp", "#include \"tear/upper/b.h\"\n#include \"tear/c.h\""),
               IsEmpty());
-  EXPECT_THAT(faults_of("tear/upper/a.cpp", "// #include \"tear/other/b.h\""), IsEmpty());
+  EXPECT_THAT(room_faults_of("tear/upper/a.cpp", "// #include \"tear/other/b.h\""), IsEmpty());
 }
 
 TEST(RoomArrows, all_rooms_may_include_internal_headers_which_include_none) {
-  EXPECT_THAT(faults_of("tear/lower/a.cpp", "#include \"tear/internal/b.h\""), IsEmpty());
-  EXPECT_THAT(faults_of("tear/internal/a.h", "#include \"tear/internal/b.h\""), IsEmpty());
-  EXPECT_THAT(faults_of("tear/internal/a.h", "#include \"tear/lower/b.h\""),
+  EXPECT_THAT(room_faults_of("tear/lower/a.cpp", "#include \"tear/internal/b.h\""), IsEmpty());
+  EXPECT_THAT(room_faults_of("tear/internal/a.h", "#include \"tear/internal/b.h\""), IsEmpty());
+  EXPECT_THAT(room_faults_of("tear/internal/a.h", "#include \"tear/lower/b.h\""),
               ElementsAre(HasSubstr("from internal to lower")));
 }
 
 TEST(RoomArrows, a_room_that_is_not_in_the_table_is_found) {
-  EXPECT_THAT(faults_of("tear/attic/a.cpp", "#include <vector>"),
+  EXPECT_THAT(room_faults_of("tear/attic/a.cpp", "#include <vector>"),
               ElementsAre("tear/attic: not a room"));
-  EXPECT_THAT(faults_of("tear/upper/attic/a.cpp", "#include <vector>"),
+  EXPECT_THAT(room_faults_of("tear/upper/attic/a.cpp", "#include <vector>"),
               ElementsAre("tear/upper/attic: not a room"));
 }
 

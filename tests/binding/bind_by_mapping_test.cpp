@@ -39,8 +39,8 @@ std::vector<BonePair> pairs_of(const Character& model) {
   return pairs;
 }
 
-MappedBinding bound_to(const Character& model, const Character& rig,
-                       const std::vector<BonePair>& pairs, const MappingOptions& options = {}) {
+MappedBinding mapped_to(const Character& model, const Character& rig,
+                        const std::vector<BonePair>& pairs, const MappingOptions& options = {}) {
   auto bound = bind_by_mapping(model, rig, pairs, options);
   EXPECT_TRUE(bound) << bound.error().text();
   if (!bound) return {};
@@ -63,7 +63,7 @@ TEST(BindByMapping, the_own_skeleton_gives_the_same_surface_in_every_pose) {
   for (int i = 0; i < 20; ++i) {
     MappingOptions options;
     options.place.rig_from_bone = bind_pose(tube)->model_from_bone;
-    const MappedBinding bound = bound_to(tube, renamed(tube), pairs_of(tube), options);
+    const MappedBinding bound = mapped_to(tube, renamed(tube), pairs_of(tube), options);
     EXPECT_EQ(bound.mapped_bones, 4u);
     EXPECT_NEAR(bound.farthest_distance, 0, 1e-6);
     EXPECT_LE(bound.largest_shape_error, 1e-6);
@@ -77,7 +77,7 @@ TEST(BindByMapping, the_own_skeleton_gives_the_same_surface_in_every_pose) {
 
 TEST(BindByMapping, weights_keep_their_bits_and_meshes_all_else) {
   const Character tube = test::make_tube(12, 8, 4);
-  const MappedBinding bound = bound_to(tube, renamed(tube), pairs_of(tube));
+  const MappedBinding bound = mapped_to(tube, renamed(tube), pairs_of(tube));
   const Mesh &before = tube.meshes[0], &after = bound.character.meshes[0];
   EXPECT_EQ(before.positions, after.positions);
   EXPECT_EQ(before.morph_targets, after.morph_targets);
@@ -109,7 +109,7 @@ TEST(BindByMapping, keeps_the_shape_where_it_is_placed_in_every_pose_of_the_bind
     std::vector<BonePair> pairs;
     for (const Bone& bone : model.skeleton.bones)
       pairs.push_back({bone.name, rig.skeleton.bones[random.index(5)].name});
-    const MappedBinding bound = bound_to(model, rig, pairs, options);
+    const MappedBinding bound = mapped_to(model, rig, pairs, options);
     EXPECT_LE(bound.largest_shape_error, 1e-5);
     pose.morph_weights = model.rest_morph_weights;
     for (Index m = 0; m < model.meshes.size(); ++m) {
@@ -123,7 +123,7 @@ TEST(BindByMapping, keeps_the_shape_where_it_is_placed_in_every_pose_of_the_bind
 TEST(BindByMapping, several_bones_hand_their_weight_to_one) {
   const Character tube = test::make_tube(12, 8, 4);
   const Character rig = test::make_bare_chain(2);
-  const MappedBinding bound = bound_to(
+  const MappedBinding bound = mapped_to(
       tube, rig, {{"bone0", "link0"}, {"bone1", "link0"}, {"bone2", "link1"}, {"bone3", "link1"}});
   const Mesh& mesh = bound.character.meshes[0];
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
@@ -141,7 +141,7 @@ TEST(BindByMapping, the_nearest_mapped_ancestor_takes_the_weight_of_others_and_s
   const Character tube = test::make_tube(12, 8, 4);
   const Character rig = test::make_bare_chain(2);
   const std::vector<BonePair> pairs = {{"bone0", "link0"}, {"bone2", "link1"}};
-  const MappedBinding bound = bound_to(tube, rig, pairs);
+  const MappedBinding bound = mapped_to(tube, rig, pairs);
   EXPECT_EQ(bound.mapped_bones, 2u);
   const std::vector<BonePair> expected = {{"bone1", "link0"}, {"bone3", "link1"}};
   EXPECT_EQ(bound.taken_by_ancestor, expected);
@@ -161,10 +161,10 @@ TEST(BindByMapping, the_nearest_mapped_ancestor_takes_the_weight_of_others_and_s
 
 TEST(BindByMapping, equal_names_need_no_pair_and_pairs_come_first) {
   const Character tube = test::make_tube(12, 8, 3);
-  const MappedBinding alike = bound_to(tube, tube, {});
+  const MappedBinding alike = mapped_to(tube, tube, {});
   EXPECT_EQ(alike.mapped_bones, 3u);
   EXPECT_TRUE(alike.taken_by_ancestor.empty());
-  const MappedBinding moved = bound_to(tube, tube, {{"bone2", "bone1"}});
+  const MappedBinding moved = mapped_to(tube, tube, {{"bone2", "bone1"}});
   EXPECT_EQ(moved.character.skins[0].bones, (std::vector<Index>{0, 1}));
   EXPECT_EQ(moved.farthest_pair, (BonePair{"bone2", "bone1"}));
   EXPECT_NEAR(moved.farthest_distance, 1, 1e-6);
@@ -202,7 +202,7 @@ TEST(BindByMapping, bones_that_move_nothing_are_named) {
   end.name = "end";
   end.parent = 1;
   tube.skeleton.bones.push_back(end);
-  EXPECT_EQ(bound_to(tube, tube, {{"end", "bone1"}}).unused, std::vector<std::string>{"end"});
+  EXPECT_EQ(mapped_to(tube, tube, {{"end", "bone1"}}).unused, std::vector<std::string>{"end"});
 }
 
 TEST(FitPlace, finds_the_place_from_which_the_joints_came) {

@@ -484,24 +484,24 @@ class ContactUse : public testing::Test {
   std::vector<SurfaceContact> contacts;
 };
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 TEST_F(ContactUse, bad_input_is_refused) {
   ASSERT_TRUE(query.set_pose(pose));
   const auto code_of_ray = [&](const Ray& ray) { return query.cast_ray(ray).error().code(); };
-  EXPECT_EQ(code_of_ray({{kNan, 0, 0}, {0, 0, 1}}), StatusCode::non_finite_value);
+  EXPECT_EQ(code_of_ray({{kNotANumber, 0, 0}, {0, 0, 1}}), StatusCode::non_finite_value);
   EXPECT_EQ(code_of_ray({{0, 0, 0}, {0, kInfinity, 1}}), StatusCode::non_finite_value);
   EXPECT_EQ(code_of_ray({{0, 0, 0}, {0, 0, 0}}), StatusCode::invalid_argument);
   EXPECT_EQ(code_of_ray({{0, 0, 0}, {0, 0, 1}, -1}), StatusCode::invalid_argument);
-  EXPECT_EQ(code_of_ray({{0, 0, 0}, {0, 0, 1}, kNan}), StatusCode::non_finite_value);
+  EXPECT_EQ(code_of_ray({{0, 0, 0}, {0, 0, 1}, kNotANumber}), StatusCode::non_finite_value);
   EXPECT_EQ(code_of_ray({{0, 0, 1e61}, {0, 0, 1}}), StatusCode::invalid_argument);
   EXPECT_TRUE(query.cast_ray({{0.4, 0.3, 1}, {0, 0, -1}, 0}));
 
   contacts.resize(3);
   EXPECT_EQ(query.find_blade_contacts({{0, 0, 0}, {0, 0, 0}}, contacts).code(),
             StatusCode::invalid_argument);
-  EXPECT_EQ(query.find_blade_contacts({{0, 0, kNan}, {0, 0, 0}}, contacts).code(),
+  EXPECT_EQ(query.find_blade_contacts({{0, 0, kNotANumber}, {0, 0, 0}}, contacts).code(),
             StatusCode::non_finite_value);
   EXPECT_EQ(contacts.size(), 3u);
 
@@ -510,10 +510,10 @@ TEST_F(ContactUse, bad_input_is_refused) {
   };
   EXPECT_EQ(code_of_capsule({{0, 0, 0}, {0, 0, 1}, -0.1}), StatusCode::invalid_argument);
   EXPECT_EQ(code_of_capsule({{0, 0, 0}, {0, 0, 1}, kInfinity}), StatusCode::invalid_argument);
-  EXPECT_EQ(code_of_capsule({{0, 0, 0}, {0, 0, 1}, kNan}), StatusCode::non_finite_value);
-  EXPECT_EQ(code_of_capsule({{0, kNan, 0}, {0, 0, 1}, 1}), StatusCode::non_finite_value);
+  EXPECT_EQ(code_of_capsule({{0, 0, 0}, {0, 0, 1}, kNotANumber}), StatusCode::non_finite_value);
+  EXPECT_EQ(code_of_capsule({{0, kNotANumber, 0}, {0, 0, 1}, 1}), StatusCode::non_finite_value);
 
-  EXPECT_EQ(query.find_nearest({0, kNan, 0}).error().code(), StatusCode::non_finite_value);
+  EXPECT_EQ(query.find_nearest({0, kNotANumber, 0}).error().code(), StatusCode::non_finite_value);
   EXPECT_EQ(query.find_nearest({0, 0, 0}, -1).error().code(), StatusCode::invalid_argument);
 
   const auto code_of_anchor = [&](const SurfaceAnchor& anchor) {
@@ -521,7 +521,7 @@ TEST_F(ContactUse, bad_input_is_refused) {
   };
   EXPECT_EQ(code_of_anchor({1, {0, {1, 0, 0}}}), StatusCode::index_out_of_range);
   EXPECT_EQ(code_of_anchor({0, {72, {1, 0, 0}}}), StatusCode::index_out_of_range);
-  EXPECT_EQ(code_of_anchor({0, {0, {kNan, 0, 0}}}), StatusCode::non_finite_value);
+  EXPECT_EQ(code_of_anchor({0, {0, {kNotANumber, 0, 0}}}), StatusCode::non_finite_value);
   EXPECT_EQ(code_of_anchor({0, {0, {2, -1, 0}}}), StatusCode::invalid_argument);
   EXPECT_EQ(code_of_anchor({0, {0, {0.5, 0, 0}}}), StatusCode::invalid_argument);
 }
@@ -533,7 +533,7 @@ TEST_F(ContactUse, bad_poses_and_displacements_are_refused) {
   other.model_from_bone.pop_back();
   EXPECT_EQ(query.set_pose(other).code(), StatusCode::size_mismatch);
   other = pose;
-  other.model_from_bone[0].translation().x() = kNan;
+  other.model_from_bone[0].translation().x() = kNotANumber;
   EXPECT_EQ(query.set_pose(other).code(), StatusCode::non_finite_value);
   EXPECT_EQ(query.find_nearest({0, 0, 0}).error().code(), StatusCode::invalid_argument);
 

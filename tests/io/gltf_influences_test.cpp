@@ -55,7 +55,7 @@ Character strip_with_influences(std::uint32_t most) {
   return character;
 }
 
-struct Saved {
+struct SavedInfluences {
   Json json;
   std::vector<std::byte> binary;
   LoadedCharacter again;
@@ -82,8 +82,8 @@ struct Saved {
   }
 };
 
-Saved read_back(const std::filesystem::path& file) {
-  Saved saved;
+SavedInfluences read_back(const std::filesystem::path& file) {
+  SavedInfluences saved;
   const std::vector<std::byte> glb = read_bytes(file);
   std::uint32_t length = 0;
   std::memcpy(&length, glb.data() + 12, 4);
@@ -96,7 +96,7 @@ Saved read_back(const std::filesystem::path& file) {
   return saved;
 }
 
-Saved save(const Character& character, const SaveOptions& options) {
+SavedInfluences save(const Character& character, const SaveOptions& options) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "written.glb";
   const Status status = save_glb(file, character, options);
@@ -113,7 +113,7 @@ Saved save(const Character& character, const SaveOptions& options) {
 /// The vertex's weights as stored in the file: they sum to exactly one, and slots without weight
 /// are 0.
 template <class Integer>
-void expect_exact_sum(const Saved& saved, std::size_t vertex) {
+void expect_exact_sum(const SavedInfluences& saved, std::size_t vertex) {
   std::uint32_t sum = 0;
   for (std::size_t set = 0; saved.has("WEIGHTS_" + std::to_string(set)); ++set)
     for (std::size_t c = 0; c < 4; ++c) {
@@ -157,7 +157,7 @@ TEST(SaveInfluences, come_back_within_one_unit_in_every_format) {
         SCOPED_TRACE(testing::Message()
                      << format.component_type << ", at most " << maximum << " of " << most);
         const Character character = strip_with_influences(most);
-        const Saved saved = save(character, {maximum, format.format});
+        const SavedInfluences saved = save(character, {maximum, format.format});
         const std::uint32_t kept = maximum == 0 ? most : std::min(most, maximum);
         ASSERT_TRUE(saved.has("WEIGHTS_" + std::to_string((kept - 1) / 4)));
         ASSERT_FALSE(saved.has("WEIGHTS_" + std::to_string((kept + 3) / 4)));
@@ -208,7 +208,7 @@ TEST(SaveInfluences, of_meshes_that_stay_are_not_touched) {
   Character changed = *loaded->character;
   changed.meshes[0].triangles[0].fill(0);  // retired
   ASSERT_TRUE(save_glb(torn, changed, *loaded, as_bytes));
-  const Saved saved = read_back(torn);
+  const SavedInfluences saved = read_back(torn);
   if (has_gltf_validator()) {
     EXPECT_EQ(validate_glb(torn).errors, 0);
   }
@@ -222,7 +222,7 @@ TEST(SaveInfluences, each_mesh_may_have_a_format_of_its_own) {
   for (int i = 0; i < 2; ++i) character.meshes.push_back(character.meshes[0]);
   SaveOptions options;
   options.weights_of_mesh = {WeightFormat::unorm16, WeightFormat::float32, WeightFormat::unorm8};
-  const Saved saved = save(character, options);
+  const SavedInfluences saved = save(character, options);
   const std::uint32_t types[] = {5123, 5126, 5121};
   for (std::size_t mesh = 0; mesh < 3; ++mesh) {
     const Json& attributes = saved.json["meshes"][mesh]["primitives"][0]["attributes"];
@@ -254,7 +254,7 @@ struct ChangedStrip {
     const TemporaryFolder folder;
     const Status status = save_glb(folder.path() / "a.glb", changed, loaded, options);
     EXPECT_TRUE(status) << status.text();
-    const Saved saved = read_back(folder.path() / "a.glb");
+    const SavedInfluences saved = read_back(folder.path() / "a.glb");
     std::size_t sets = 0;
     while (saved.has("WEIGHTS_" + std::to_string(sets))) ++sets;
     return sets;

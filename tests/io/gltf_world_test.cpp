@@ -12,13 +12,13 @@
 namespace sunder::test {
 namespace {
 
-struct Saved {
+struct SavedWorld {
   Json json;
   Result<LoadedCharacter> again = Status();
 };
 
 /// Retires a triangle of a mesh, and saves.
-Saved torn_and_saved(const LoadedCharacter& loaded, std::size_t mesh = 0) {
+SavedWorld torn_and_saved(const LoadedCharacter& loaded, std::size_t mesh = 0) {
   Character torn = *loaded.character;
   torn.meshes[mesh].triangles[0].fill(0);
   const TemporaryFolder folder;
@@ -75,7 +75,7 @@ TEST(GltfOfTheWorld, joints_and_weights_may_be_sparse_without_a_base) {
     ASSERT_EQ(read.of(v).size(), 1u);
     EXPECT_EQ(read.of(v)[0].slot, v == 2 || v == 7 ? 1u : 0u);
   }
-  const Saved saved = torn_and_saved(loaded);
+  const SavedWorld saved = torn_and_saved(loaded);
   ASSERT_TRUE(saved.again.has_value());
   EXPECT_EQ(saved.again->character->meshes.at(0).weights, read);
 }
@@ -103,7 +103,7 @@ TEST(GltfOfTheWorld, key_frames_and_morph_targets_may_be_sparse) {
   EXPECT_EQ(loaded.character->meshes.at(0).morph_targets.at(0).position_deltas[1], Vec3f(0, 3, 0));
   EXPECT_EQ(loaded.character->clips.at(0).channels.at(0).values,
             (std::vector<float>{0, 0, 0, 0, 3, 0}));
-  const Saved saved = torn_and_saved(loaded);
+  const SavedWorld saved = torn_and_saved(loaded);
   ASSERT_TRUE(saved.again.has_value());
   EXPECT_EQ(saved.again->character->clips, loaded.character->clips);
   EXPECT_EQ(saved.again->character->meshes.at(0).morph_targets,
@@ -135,7 +135,7 @@ TEST(GltfOfTheWorld, the_default_scene_is_loaded_and_the_others_are_reported) {
 
 TEST(GltfOfTheWorld, a_tear_leaves_other_scenes_as_they_were) {
   const GltfBuilder builder = two_scenes();
-  const Saved saved = torn_and_saved(loaded_from(builder));
+  const SavedWorld saved = torn_and_saved(loaded_from(builder));
   EXPECT_EQ(saved.json["scenes"], builder.json["scenes"]);
   EXPECT_EQ(saved.json["nodes"][3], builder.json["nodes"][3]);
   EXPECT_EQ(saved.json["meshes"][0], builder.json["meshes"][0]);
@@ -172,7 +172,7 @@ TEST(GltfOfTheWorld, each_instance_is_torn_alone_and_keeps_its_skin) {
   const GltfBuilder builder = three_instances();
   const LoadedCharacter loaded = loaded_from(builder);
   for (std::size_t torn = 0; torn < 3; ++torn) {
-    const Saved saved = torn_and_saved(loaded, torn);
+    const SavedWorld saved = torn_and_saved(loaded, torn);
     ASSERT_TRUE(saved.again.has_value());
     ASSERT_EQ(saved.again->character->meshes.size(), 3u);
     for (std::size_t mesh = 0; mesh < 3; ++mesh)
@@ -195,7 +195,7 @@ TEST(GltfOfTheWorld, primitives_of_one_mesh_share_the_skins_of_its_nodes) {
   ASSERT_EQ(loaded.character->meshes.size(), 6u);
   for (std::size_t node = 0; node < 3; ++node)
     EXPECT_EQ(loaded.character->meshes[2 * node].skin, loaded.character->meshes[2 * node + 1].skin);
-  const Saved saved = torn_and_saved(loaded, 4);
+  const SavedWorld saved = torn_and_saved(loaded, 4);
   ASSERT_TRUE(saved.again.has_value());
   EXPECT_EQ(saved.again->character->meshes[4].triangle_count(), 7u);
   EXPECT_EQ(saved.again->character->meshes[5].triangle_count(), 8u);
@@ -257,7 +257,7 @@ TEST(GltfOfTheWorld, inverse_binds_off_by_rounding_are_read_reported_and_written
     EXPECT_EQ(*loaded.character, exact);
     EXPECT_TRUE(has_note(loaded.report, LoadNote::Kind::repaired, "last row"));
     EXPECT_EQ(builder.load(strict()).error().code(), StatusCode::malformed_file);
-    const Saved saved = torn_and_saved(loaded);
+    const SavedWorld saved = torn_and_saved(loaded);
     ASSERT_TRUE(saved.again.has_value());
     EXPECT_EQ(saved.again->character->skins, exact.skins);
     EXPECT_FALSE(has_note(saved.again->report, LoadNote::Kind::repaired, "last row"));

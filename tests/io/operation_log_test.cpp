@@ -16,28 +16,29 @@ namespace {
 constexpr const char* kBlades =
     R"([{"base": [0,0,1], "tip": [0,0,0]}, {"base": [0.1,0,1], "tip": [0.1,0,0]}])";
 
-std::string log_of(const std::string& operations) {
+std::string log_text_of(const std::string& operations) {
   return R"({"sunder_operations": 1, "operations": [)" + operations + "]}";
 }
 
 std::string cut_with(const std::string& fields) {
-  return log_of(R"({"op": "cut", "plane": {"point": [0,0,0], "normal": [0,0,1]}, )" + fields + "}");
+  return log_text_of(R"({"op": "cut", "plane": {"point": [0,0,0], "normal": [0,0,1]}, )" + fields +
+                     "}");
 }
 
 /// A drill with further fields after its axis.
 std::string drill_with(const std::string& fields) {
-  return log_of(R"({"op": "drill", "axis": {"origin": [0,0,0], "direction": [0,0,1]}, )" + fields +
-                "}");
+  return log_text_of(R"({"op": "drill", "axis": {"origin": [0,0,0], "direction": [0,0,1]}, )" +
+                     fields + "}");
 }
 
 /// A tear with further fields before the stroke.
 std::string tear_with(const std::string& fields) {
-  return log_of(R"({"op": "tear", )" + fields + R"(, "stroke": )" + kBlades + "}");
+  return log_text_of(R"({"op": "tear", )" + fields + R"(, "stroke": )" + kBlades + "}");
 }
 
 /// Weights of operations, followed by further fields.
 std::string weights_with(const std::string& fields) {
-  return log_of(R"({"op": "weights", "weights": )" + fields + "}");
+  return log_text_of(R"({"op": "weights", "weights": )" + fields + "}");
 }
 
 /// A refit with other fields.
@@ -50,7 +51,7 @@ std::string limit_with(const std::string& fields) {
   return refit_with(R"({"poses": {"joint_limits": [{)" + fields + "}]}}");
 }
 
-TearOperation parsed(const std::string& json) {
+TearOperation parsed_operation(const std::string& json) {
   auto operations = parse_operations(json);
   EXPECT_TRUE(operations) << operations.error().text();
   if (!operations || operations->empty()) return {};
@@ -58,7 +59,7 @@ TearOperation parsed(const std::string& json) {
 }
 
 TEST(OperationLog, ReadsEveryField) {
-  const TearOperation tear = parsed(
+  const TearOperation tear = parsed_operation(
       tear_with(R"("pose": {"clip": "Walk", "time": 0.4}, "width": 0.0, "layers": "nearest")"));
   const ClipPose pose = std::get<ClipPose>(tear.pose);
   EXPECT_EQ(std::get<std::string>(pose.clip), "Walk");
@@ -69,13 +70,13 @@ TEST(OperationLog, ReadsEveryField) {
 
 TEST(OperationLog, ReadsWidthLayersAndWalls) {
   const TearOperation tear =
-      parsed(tear_with(R"("width": 0.02, "layers": "all", "wall_depth": 0.01)"));
+      parsed_operation(tear_with(R"("width": 0.02, "layers": "all", "wall_depth": 0.01)"));
   EXPECT_EQ(tear.options, (TearOptions{0.02, Layers::all, 0.01}));
-  EXPECT_EQ(parsed(tear_with(R"("width": 0)")).options, TearOptions{});
+  EXPECT_EQ(parsed_operation(tear_with(R"("width": 0)")).options, TearOptions{});
 }
 
 TEST(OperationLog, MaterialsAndRolledLipsGoRoundTheLog) {
-  const auto operations = parse_operations(log_of(R"(
+  const auto operations = parse_operations(log_text_of(R"(
       {"op": "tear", "wall_depth": 0.1, "wall_material": 3, "lip_roll": 0.02,
        "stroke": [{"base": [0,0,1], "tip": [0,0,0]}, {"base": [1,0,1], "tip": [1,0,0]}]},
       {"op": "cut", "plane": {"point": [0,0,0], "normal": [0,1,0]}, "caps": true, "cap_material": 4},
@@ -90,12 +91,12 @@ TEST(OperationLog, MaterialsAndRolledLipsGoRoundTheLog) {
     EXPECT_EQ(std::get<CutOperation>(of[1]).cut.cap_material, 4u);
     EXPECT_EQ(std::get<DrillOperation>(of[2]).bore.wall_material, 5u);
   }
-  EXPECT_FALSE(parse_operations(log_of(R"({"op": "tear", "lip_roll": -1,
+  EXPECT_FALSE(parse_operations(log_text_of(R"({"op": "tear", "lip_roll": -1,
       "stroke": [{"base": [0,0,1], "tip": [0,0,0]}, {"base": [1,0,1], "tip": [1,0,0]}]})")));
 }
 
 TEST(OperationLog, ABladeMayBringItsPose) {
-  const TearOperation tear = parsed(log_of(R"({"op": "tear", "stroke": [
+  const TearOperation tear = parsed_operation(log_text_of(R"({"op": "tear", "stroke": [
       {"base": [0,0,1], "tip": [0,0,0]}, {"base": [1,0,1], "tip": [1,0,0], "pose": "bind"},
       {"base": [2,0,1], "tip": [2,0,0]}, {"base": [3,0,1], "tip": [3,0,0], "pose": {"clip": "Walk", "time": 1}}]})"));
   ASSERT_EQ(tear.pose_changes.size(), 2u);
@@ -106,7 +107,7 @@ TEST(OperationLog, ABladeMayBringItsPose) {
 }
 
 TEST(OperationLog, ReadsACut) {
-  const auto operations = parse_operations(log_of(R"({"op": "cut", "pose": "bind",
+  const auto operations = parse_operations(log_text_of(R"({"op": "cut", "pose": "bind",
       "plane": {"point": [1, 2, 3], "normal": [0, -2, 0]}, "bounds": [[0,0,0], [1,0,0], [0,0,1]], "caps": true,
       "sections": [[4, 5, 6], [7, 8, 9]], "first_hit": {"origin": [1, 2, 3], "direction": [0, 0, -4]},
       "bone": "forearm"},
@@ -124,7 +125,7 @@ TEST(OperationLog, ReadsACut) {
 
 TEST(OperationLog, ReadsABore) {
   const auto operations = parse_operations(
-      log_of(R"({"op": "drill", "axis": {"origin": [1, 2, 3], "direction": [0, 0, -3]},
+      log_text_of(R"({"op": "drill", "axis": {"origin": [1, 2, 3], "direction": [0, 0, -3]},
       "radius": 0.5, "depth": 4, "chord_tolerance": 0.001, "wall": true},
       {"op": "drill", "axis": {"origin": [0,0,0], "direction": [0,0,-1]}, "radius": 1, "depth": 1})"));
   ASSERT_TRUE(operations) << operations.error().text();
@@ -135,7 +136,7 @@ TEST(OperationLog, ReadsABore) {
 }
 
 TEST(OperationLog, ReadsADetachment) {
-  const auto operations = parse_operations(log_of(
+  const auto operations = parse_operations(log_text_of(
       R"({"op": "detach", "pose": "bind", "piece": {"near": [1, 2, 3], "bone": "hand"}},
       {"op": "detach", "piece": {"near": [0, 0, 1]}},
       {"op": "detach", "piece": {"mesh": 2, "triangle": 7}},
@@ -152,13 +153,13 @@ TEST(OperationLog, ReadsADetachment) {
 }
 
 TEST(OperationLog, ATearACutAndABoreMayBringWeights) {
-  EXPECT_EQ(
-      parsed(tear_with(R"("weights": {"policy": "pose_exact", "influences": 4})")).options.weights,
-      (WeightOptions{WeightPolicy::pose_exact, 4}));
-  EXPECT_EQ(parsed(tear_with(R"("weights": {"influences": 8})")).options.weights,
+  EXPECT_EQ(parsed_operation(tear_with(R"("weights": {"policy": "pose_exact", "influences": 4})"))
+                .options.weights,
+            (WeightOptions{WeightPolicy::pose_exact, 4}));
+  EXPECT_EQ(parsed_operation(tear_with(R"("weights": {"influences": 8})")).options.weights,
             (WeightOptions{WeightPolicy::barycentric, 8}));
-  EXPECT_EQ(parsed(tear_with(R"("weights": {})")).options.weights, WeightOptions{});
-  EXPECT_EQ(parsed(tear_with(R"("width": 0)")).options.weights, std::nullopt);
+  EXPECT_EQ(parsed_operation(tear_with(R"("weights": {})")).options.weights, WeightOptions{});
+  EXPECT_EQ(parsed_operation(tear_with(R"("width": 0)")).options.weights, std::nullopt);
   const auto cut = parse_operations(cut_with(R"("weights": {"policy": "exact", "influences": 0})"));
   ASSERT_TRUE(cut) << cut.error().text();
   EXPECT_EQ(std::get<CutOperation>(cut->at(0)).cut.weights,
@@ -171,7 +172,7 @@ TEST(OperationLog, ATearACutAndABoreMayBringWeights) {
 }
 
 TEST(OperationLog, ReadsWeightsOfEarlierOperations) {
-  const auto operations = parse_operations(log_of(R"({"op": "weights", "first": 2, "count": 3,
+  const auto operations = parse_operations(log_text_of(R"({"op": "weights", "first": 2, "count": 3,
       "weights": {"policy": "pose_exact", "influences": 4}, "pose": {"clip": "Walk", "time": 0.5}},
       {"op": "weights", "weights": {"policy": "exact"}}, {"op": "weights", "weights": {"policy": "refit"}})"));
   ASSERT_TRUE(operations) << operations.error().text();
@@ -222,7 +223,7 @@ TEST(OperationLog, ReadsWhatARefitIsOver) {
 }
 
 TEST(OperationLog, ReadsUndoAndRedo) {
-  const auto operations = parse_operations(log_of(
+  const auto operations = parse_operations(log_text_of(
       R"({"op": "undo"}, {"op": "undo", "count": 3}, {"op": "redo"}, {"op": "redo", "count": 4294967294})"));
   ASSERT_TRUE(operations) << operations.error().text();
   EXPECT_EQ(std::get<UndoOperation>(operations->at(0)).count, 1u);
@@ -233,7 +234,7 @@ TEST(OperationLog, ReadsUndoAndRedo) {
 
 TEST(OperationLog, MatricesAreRows) {
   const ModelPose pose = std::get<ModelPose>(
-      parsed(
+      parsed_operation(
           tear_with(
               R"("pose": {"matrices": [[1,2,3,4, 5,6,7,8, 9,10,11,1e30]], "morph_weights": [0.5, -2]})"))
           .pose);
@@ -243,26 +244,28 @@ TEST(OperationLog, MatricesAreRows) {
   EXPECT_EQ(pose.model_from_bone[0].matrix(), expected);
   EXPECT_EQ(pose.morph_weights, (std::vector<float>{0.5f, -2.0f}));
   const ModelPose empty =
-      std::get<ModelPose>(parsed(tear_with(R"("pose": {"matrices": []})")).pose);
+      std::get<ModelPose>(parsed_operation(tear_with(R"("pose": {"matrices": []})")).pose);
   EXPECT_TRUE(empty.model_from_bone.empty());
   EXPECT_TRUE(empty.morph_weights.empty());
 }
 
 TEST(OperationLog, RestIsTheDefaultPose) {
-  EXPECT_TRUE(std::holds_alternative<RestPose>(parsed(tear_with(R"("width": 0)")).pose));
-  EXPECT_TRUE(std::holds_alternative<RestPose>(parsed(tear_with(R"("pose": "rest")")).pose));
-  EXPECT_TRUE(std::holds_alternative<BindPose>(parsed(tear_with(R"("pose": "bind")")).pose));
+  EXPECT_TRUE(std::holds_alternative<RestPose>(parsed_operation(tear_with(R"("width": 0)")).pose));
+  EXPECT_TRUE(
+      std::holds_alternative<RestPose>(parsed_operation(tear_with(R"("pose": "rest")")).pose));
+  EXPECT_TRUE(
+      std::holds_alternative<BindPose>(parsed_operation(tear_with(R"("pose": "bind")")).pose));
 }
 
 TEST(OperationLog, ClipByIndex) {
   const ClipPose pose =
-      std::get<ClipPose>(parsed(tear_with(R"("pose": {"clip": 2, "time": 0})")).pose);
+      std::get<ClipPose>(parsed_operation(tear_with(R"("pose": {"clip": 2, "time": 0})")).pose);
   EXPECT_EQ(std::get<std::uint32_t>(pose.clip), 2u);
 }
 
 TEST(OperationLog, BonesKeepTheirOrderAndWhatIsNotGivenStaysOpen) {
   const BonesPose pose = std::get<BonesPose>(
-      parsed(
+      parsed_operation(
           tear_with(
               R"("pose": {"bones": {"Spine": {"rotation": [0, 0, 0, 2]}, "Arm": {"translation": [1, 2, 3], "scale": [1, 1, 2]}}})"))
           .pose);
@@ -277,7 +280,7 @@ TEST(OperationLog, BonesKeepTheirOrderAndWhatIsNotGivenStaysOpen) {
 }
 
 TEST(OperationLog, MayBeEmpty) {
-  const auto operations = parse_operations(log_of(""));
+  const auto operations = parse_operations(log_text_of(""));
   ASSERT_TRUE(operations);
   EXPECT_TRUE(operations->empty());
 }
@@ -311,7 +314,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Refusal{"no text", "", kMalformed, "line 1"},
         Refusal{"syntax", "{\n\"sunder_operations\": 1,\n oops}", kMalformed, "line 3, byte 27"},
-        Refusal{"trailing text", log_of("") + " x", kMalformed, "line 1"},
+        Refusal{"trailing text", log_text_of("") + " x", kMalformed, "line 1"},
         Refusal{"bad UTF-8", "{\"\xFF\": 1}", kMalformed, "invalid JSON"},
         Refusal{"not an object", "[]", kMalformed, "expected an object, found array"},
         Refusal{"no version", R"({"operations": []})", kMalformed,
@@ -329,44 +332,50 @@ INSTANTIATE_TEST_SUITE_P(
                 "'author'"},
         Refusal{"a field twice", R"({"sunder_operations": 1, "operations": [], "operations": []})",
                 kMalformed, "'operations' occurs twice"},
-        Refusal{"operation no object", log_of("7"), kMalformed,
+        Refusal{"operation no object", log_text_of("7"), kMalformed,
                 "/operations/0: expected an object, found number"},
-        Refusal{"operation without op", log_of("{}"), kMalformed,
+        Refusal{"operation without op", log_text_of("{}"), kMalformed,
                 "/operations/0: field 'op' is missing"},
-        Refusal{"unknown operation", log_of(R"({"op": "sew"})"), kUnsupported, "/operations/0/op"},
-        Refusal{"no piece", log_of(R"({"op": "detach"})"), kMalformed, "'piece' is missing"},
-        Refusal{"piece without a place", log_of(R"({"op": "detach", "piece": {"mesh": 1}})"),
+        Refusal{"unknown operation", log_text_of(R"({"op": "sew"})"), kUnsupported,
+                "/operations/0/op"},
+        Refusal{"no piece", log_text_of(R"({"op": "detach"})"), kMalformed, "'piece' is missing"},
+        Refusal{"piece without a place", log_text_of(R"({"op": "detach", "piece": {"mesh": 1}})"),
                 kMalformed, "'triangle' is missing"},
         Refusal{"piece at two places",
-                log_of(R"({"op": "detach", "piece": {"near": [0, 0, 0], "triangle": 1}})"),
+                log_text_of(R"({"op": "detach", "piece": {"near": [0, 0, 0], "triangle": 1}})"),
                 kMalformed, "unknown field 'triangle'"},
-        Refusal{"triangle below 0", log_of(R"({"op": "detach", "piece": {"triangle": -1}})"),
+        Refusal{"triangle below 0", log_text_of(R"({"op": "detach", "piece": {"triangle": -1}})"),
                 kMalformed, "/operations/0/piece/triangle"},
         Refusal{"unknown field", tear_with(R"("depth": 1)"), kMalformed, "unknown field 'depth'"},
-        Refusal{"no stroke", log_of(R"({"op": "tear"})"), kMalformed, "'stroke' is missing"},
+        Refusal{"no stroke", log_text_of(R"({"op": "tear"})"), kMalformed, "'stroke' is missing"},
         Refusal{"one blade",
-                log_of(R"({"op": "tear", "stroke": [{"base": [0,0,1], "tip": [0,0,0]}]})"),
+                log_text_of(R"({"op": "tear", "stroke": [{"base": [0,0,1], "tip": [0,0,0]}]})"),
                 kMalformed, "/operations/0/stroke"},
-        Refusal{"blade without tip", log_of(R"({"op": "tear", "stroke": [{"base": [0,0,1]}, {}]})"),
-                kMalformed, "/stroke/0: field 'tip'"},
+        Refusal{"blade without tip",
+                log_text_of(R"({"op": "tear", "stroke": [{"base": [0,0,1]}, {}]})"), kMalformed,
+                "/stroke/0: field 'tip'"},
         Refusal{"blade without length",
-                log_of(R"({"op": "tear", "stroke": [{"base": [0,0,1], "tip": [0,0,1]}, {}]})"),
+                log_text_of(R"({"op": "tear", "stroke": [{"base": [0,0,1], "tip": [0,0,1]}, {}]})"),
                 kMalformed, "/operations/0/stroke/0: base and tip of a blade must differ"},
         Refusal{"two coordinates",
-                log_of(R"({"op": "tear", "stroke": [{"base": [0,0], "tip": [0,0,1]}, {}]})"),
+                log_text_of(R"({"op": "tear", "stroke": [{"base": [0,0], "tip": [0,0,1]}, {}]})"),
                 kMalformed, "/stroke/0/base"},
-        Refusal{"coordinate as text",
-                log_of(R"({"op": "tear", "stroke": [{"base": [0,0,"1"], "tip": [0,0,1]}, {}]})"),
-                kMalformed, "/stroke/0/base/2: expected a number, found string"},
-        Refusal{"NaN",
-                log_of(R"({"op": "tear", "stroke": [{"base": [0,0,NaN], "tip": [0,0,1]}, {}]})"),
-                kMalformed, "invalid JSON"},
-        Refusal{"overflow",
-                log_of(R"({"op": "tear", "stroke": [{"base": [0,0,1e999], "tip": [0,0,1]}, {}]})"),
-                kMalformed, "1e999"},
-        Refusal{"too large",
-                log_of(R"({"op": "tear", "stroke": [{"base": [0,0,1e10], "tip": [0,0,1]}, {}]})"),
-                kMalformed, "/stroke/0/base/2"},
+        Refusal{
+            "coordinate as text",
+            log_text_of(R"({"op": "tear", "stroke": [{"base": [0,0,"1"], "tip": [0,0,1]}, {}]})"),
+            kMalformed, "/stroke/0/base/2: expected a number, found string"},
+        Refusal{
+            "NaN",
+            log_text_of(R"({"op": "tear", "stroke": [{"base": [0,0,NaN], "tip": [0,0,1]}, {}]})"),
+            kMalformed, "invalid JSON"},
+        Refusal{
+            "overflow",
+            log_text_of(R"({"op": "tear", "stroke": [{"base": [0,0,1e999], "tip": [0,0,1]}, {}]})"),
+            kMalformed, "1e999"},
+        Refusal{
+            "too large",
+            log_text_of(R"({"op": "tear", "stroke": [{"base": [0,0,1e10], "tip": [0,0,1]}, {}]})"),
+            kMalformed, "/stroke/0/base/2"},
         Refusal{"negative width", tear_with(R"("width": -0.01)"), kMalformed,
                 "/operations/0/width"},
         Refusal{"negative depth of walls", tear_with(R"("wall_depth": -1)"), kMalformed,
@@ -403,17 +412,17 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Refusal{
             "pose of the first blade",
-            log_of(
+            log_text_of(
                 R"({"op": "tear", "stroke": [{"base": [0,0,1], "tip": [0,0,0], "pose": "rest"}, {}]})"),
             kMalformed, "/operations/0/stroke/0/pose"},
         Refusal{"unknown pose of a blade",
-                log_of(R"({"op": "tear", "stroke": [{"base": [0,0,1], "tip": [0,0,0]},
+                log_text_of(R"({"op": "tear", "stroke": [{"base": [0,0,1], "tip": [0,0,0]},
                                                     {"base": [0,0,1], "tip": [0,0,0], "pose": "t"}]})"),
                 kMalformed, "/operations/0/stroke/1/pose"},
         Refusal{"unknown field of a blade",
-                log_of(R"({"op": "tear", "stroke": [{"base": [0,0,1], "edge": 1}, {}]})"),
+                log_text_of(R"({"op": "tear", "stroke": [{"base": [0,0,1], "edge": 1}, {}]})"),
                 kMalformed, "/operations/0/stroke/0: unknown field 'edge'"},
-        Refusal{"stroke no array", log_of(R"({"op": "tear", "stroke": {}})"), kMalformed,
+        Refusal{"stroke no array", log_text_of(R"({"op": "tear", "stroke": {}})"), kMalformed,
                 "/operations/0/stroke: expected an array of blades, found object"},
         Refusal{"fields of a cut", tear_with(R"("caps": true)"), kMalformed,
                 "unknown field 'caps'"},
@@ -448,19 +457,20 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Cuts, OperationLogRefuses,
     testing::Values(
-        Refusal{"no plane", log_of(R"({"op": "cut"})"), kMalformed,
+        Refusal{"no plane", log_text_of(R"({"op": "cut"})"), kMalformed,
                 "/operations/0: field 'plane' is missing"},
-        Refusal{"plane no object", log_of(R"({"op": "cut", "plane": [0,0,1,0]})"), kMalformed,
+        Refusal{"plane no object", log_text_of(R"({"op": "cut", "plane": [0,0,1,0]})"), kMalformed,
                 "/operations/0/plane: expected an object"},
-        Refusal{"no point", log_of(R"({"op": "cut", "plane": {"normal": [0,0,1]}})"), kMalformed,
-                "'point' is missing"},
-        Refusal{"no normal", log_of(R"({"op": "cut", "plane": {"point": [0,0,1]}})"), kMalformed,
-                "'normal' is missing"},
+        Refusal{"no point", log_text_of(R"({"op": "cut", "plane": {"normal": [0,0,1]}})"),
+                kMalformed, "'point' is missing"},
+        Refusal{"no normal", log_text_of(R"({"op": "cut", "plane": {"point": [0,0,1]}})"),
+                kMalformed, "'normal' is missing"},
         Refusal{"normal of zero length",
-                log_of(R"({"op": "cut", "plane": {"point": [0,0,1], "normal": [0,-0.0,0]}})"),
+                log_text_of(R"({"op": "cut", "plane": {"point": [0,0,1], "normal": [0,-0.0,0]}})"),
                 kMalformed, "/plane/normal: normal of zero length"},
-        Refusal{"unknown field of the plane", log_of(R"({"op": "cut", "plane": {"distance": 1}})"),
-                kMalformed, "/plane: unknown field 'distance'"},
+        Refusal{"unknown field of the plane",
+                log_text_of(R"({"op": "cut", "plane": {"distance": 1}})"), kMalformed,
+                "/plane: unknown field 'distance'"},
         Refusal{"two corners", cut_with(R"("bounds": [[0,0,0], [1,0,0]])"), kMalformed,
                 "/bounds: bounds need at least three"},
         Refusal{"no corners", cut_with(R"("bounds": [])"), kMalformed,
@@ -487,22 +497,23 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Drills, OperationLogRefuses,
     testing::Values(
-        Refusal{"no axis", log_of(R"({"op": "drill", "radius": 1, "depth": 1})"), kMalformed,
+        Refusal{"no axis", log_text_of(R"({"op": "drill", "radius": 1, "depth": 1})"), kMalformed,
                 "'axis' is missing"},
+        Refusal{"no origin",
+                log_text_of(
+                    R"({"op": "drill", "axis": {"direction": [0,0,1]}, "radius": 1, "depth": 1})"),
+                kMalformed, "'origin' is missing"},
         Refusal{
-            "no origin",
-            log_of(R"({"op": "drill", "axis": {"direction": [0,0,1]}, "radius": 1, "depth": 1})"),
-            kMalformed, "'origin' is missing"},
-        Refusal{"no direction",
-                log_of(R"({"op": "drill", "axis": {"origin": [0,0,1]}, "radius": 1, "depth": 1})"),
-                kMalformed, "'direction' is missing"},
+            "no direction",
+            log_text_of(R"({"op": "drill", "axis": {"origin": [0,0,1]}, "radius": 1, "depth": 1})"),
+            kMalformed, "'direction' is missing"},
         Refusal{
             "direction of zero length",
-            log_of(
+            log_text_of(
                 R"({"op": "drill", "axis": {"origin": [0,0,1], "direction": [0,0,0]}, "radius": 1, "depth": 1})"),
             kMalformed, "/axis/direction: direction of zero length"},
         Refusal{"unknown field of the axis",
-                log_of(R"({"op": "drill", "axis": {"angle": 1}, "radius": 1, "depth": 1})"),
+                log_text_of(R"({"op": "drill", "axis": {"angle": 1}, "radius": 1, "depth": 1})"),
                 kMalformed, "/axis: unknown field 'angle'"},
         Refusal{"no radius", drill_with(R"("depth": 1)"), kMalformed, "'radius' is missing"},
         Refusal{"radius 0", drill_with(R"("radius": 0, "depth": 1)"), kMalformed,
@@ -522,18 +533,18 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     Steps, OperationLogRefuses,
-    testing::Values(Refusal{"count 0", log_of(R"({"op": "undo", "count": 0})"), kMalformed,
+    testing::Values(Refusal{"count 0", log_text_of(R"({"op": "undo", "count": 0})"), kMalformed,
                             "/operations/0/count: expected at least 1"},
-                    Refusal{"negative count", log_of(R"({"op": "redo", "count": -1})"), kMalformed,
-                            "/operations/0/count: expected"},
-                    Refusal{"half a count", log_of(R"({"op": "undo", "count": 1.5})"), kMalformed,
-                            "/operations/0/count: expected"},
+                    Refusal{"negative count", log_text_of(R"({"op": "redo", "count": -1})"),
+                            kMalformed, "/operations/0/count: expected"},
+                    Refusal{"half a count", log_text_of(R"({"op": "undo", "count": 1.5})"),
+                            kMalformed, "/operations/0/count: expected"},
                     Refusal{"count beyond 32 bits",
-                            log_of(R"({"op": "undo", "count": 4294967295})"), kMalformed,
+                            log_text_of(R"({"op": "undo", "count": 4294967295})"), kMalformed,
                             "/operations/0/count: expected at most 4294967294"},
-                    Refusal{"undo in a pose", log_of(R"({"op": "undo", "pose": "rest"})"),
+                    Refusal{"undo in a pose", log_text_of(R"({"op": "undo", "pose": "rest"})"),
                             kMalformed, "unknown field 'pose'"},
-                    Refusal{"redo in a pose", log_of(R"({"op": "redo", "pose": "rest"})"),
+                    Refusal{"redo in a pose", log_text_of(R"({"op": "redo", "pose": "rest"})"),
                             kMalformed, "unknown field 'pose'"}));
 
 INSTANTIATE_TEST_SUITE_P(
@@ -558,7 +569,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"four influences of exact",
                 tear_with(R"("weights": {"policy": "exact", "influences": 4})"), kMalformed,
                 "/operations/0/weights/influences: the policy 'exact' keeps all"},
-        Refusal{"no weights", log_of(R"({"op": "weights"})"), kMalformed,
+        Refusal{"no weights", log_text_of(R"({"op": "weights"})"), kMalformed,
                 "/operations/0: field 'weights' is missing"},
         Refusal{"weights no object", weights_with("[]"), kMalformed,
                 "/operations/0/weights: expected an object"},
@@ -637,7 +648,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(OperationLog, IndexIsTheOperation) {
   const std::string good = std::string(R"({"op": "tear", "stroke": )") + kBlades + "}";
-  const auto operations = parse_operations(log_of(good + "," + R"({"op": "tear"})"));
+  const auto operations = parse_operations(log_text_of(good + "," + R"({"op": "tear"})"));
   ASSERT_FALSE(operations);
   EXPECT_EQ(operations.error().index(), 1u);
 }
@@ -676,7 +687,7 @@ TEST(OperationLog, DocumentedExamplesAreRead) {
   for (std::size_t start = text.find("```json\n"); start != std::string::npos;
        start = text.find("```json\n", start + 1)) {
     std::string example = text.substr(start + 8, text.find("```", start + 8) - start - 8);
-    if (example.find("sunder_operations") == std::string::npos) example = log_of(example);
+    if (example.find("sunder_operations") == std::string::npos) example = log_text_of(example);
     const auto operations = parse_aimed_operations(example);
     ASSERT_TRUE(operations) << example << operations.error().text();
     for (const LoggedOperation& logged : *operations)

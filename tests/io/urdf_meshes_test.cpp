@@ -51,7 +51,7 @@ std::string collada(const std::string& up_axis, const std::string& metres) {
          "<instance_visual_scene url=\"#s\"/></scene></COLLADA>";
 }
 
-std::string link_with(const std::string& shapes) {
+std::string link_with_shapes(const std::string& shapes) {
   return "<robot name=\"r\"><link name=\"a\">" + shapes + "</link></robot>";
 }
 
@@ -100,13 +100,14 @@ class UrdfMeshes : public testing::Test {
 };
 
 TEST_F(UrdfMeshes, solids_are_closed_and_face_outwards) {
-  const Mesh box = mesh_of(link_with(visual("<box size=\"1 2 3\"/>")));
+  const Mesh box = mesh_of(link_with_shapes(visual("<box size=\"1 2 3\"/>")));
   EXPECT_NEAR(signed_volume(box), 6, 1e-5);
   expect_box(box, Vec3f(-0.5f, -1, -1.5f), Vec3f(0.5f, 1, 1.5f));
-  const Mesh cylinder = mesh_of(link_with(visual("<cylinder radius=\"0.5\" length=\"2\"/>")));
+  const Mesh cylinder =
+      mesh_of(link_with_shapes(visual("<cylinder radius=\"0.5\" length=\"2\"/>")));
   EXPECT_NEAR(signed_volume(cylinder), std::numbers::pi * 0.25 * 2, 0.02);
   expect_box(cylinder, Vec3f(-0.5f, -0.5f, -1), Vec3f(0.5f, 0.5f, 1));
-  const Mesh sphere = mesh_of(link_with(visual("<sphere radius=\"0.5\"/>")));
+  const Mesh sphere = mesh_of(link_with_shapes(visual("<sphere radius=\"0.5\"/>")));
   EXPECT_NEAR(signed_volume(sphere), 4.0 / 3 * std::numbers::pi / 8, 0.03);
   for (const Mesh& mesh : {box, cylinder, sphere})
     for (const Triangle& t : mesh.triangles) {
@@ -119,23 +120,25 @@ TEST_F(UrdfMeshes, solids_are_closed_and_face_outwards) {
 
 TEST_F(UrdfMeshes, origins_and_scales_are_applied) {
   folder_.write("t.obj", kTetrahedron);
-  const Mesh plain = mesh_of(link_with(visual("<mesh filename=\"t.obj\"/>")));
+  const Mesh plain = mesh_of(link_with_shapes(visual("<mesh filename=\"t.obj\"/>")));
   expect_box(plain, Vec3f(0, 0, 0), Vec3f(3, 2, 1));
   EXPECT_NEAR(signed_volume(plain), 1, 1e-5);
   // Scaled, then turned by a quarter about z, then moved.
   const Mesh moved =
-      mesh_of(link_with(visual("<mesh filename=\"t.obj\" scale=\"2 1 0.5\"/>",
-                               "<origin xyz=\"10 0 0\" rpy=\"0 0 1.5707963267948966\"/>")));
+      mesh_of(link_with_shapes(visual("<mesh filename=\"t.obj\" scale=\"2 1 0.5\"/>",
+                                      "<origin xyz=\"10 0 0\" rpy=\"0 0 1.5707963267948966\"/>")));
   expect_box(moved, Vec3f(8, 0, 0), Vec3f(10, 6, 0.5f));
-  const Mesh mirrored = mesh_of(link_with(visual("<mesh filename=\"t.obj\" scale=\"-1 1 1\"/>")));
+  const Mesh mirrored =
+      mesh_of(link_with_shapes(visual("<mesh filename=\"t.obj\" scale=\"-1 1 1\"/>")));
   expect_box(mirrored, Vec3f(-3, 0, 0), Vec3f(0, 2, 1));
   EXPECT_NEAR(signed_volume(mirrored), 1, 1e-5) << "the winding follows the mirror";
 }
 
 TEST_F(UrdfMeshes, several_shapes_are_one_mesh_of_the_link) {
   folder_.write("t.obj", kTetrahedron);
-  const Mesh mesh = mesh_of(link_with(visual("<mesh filename=\"t.obj\"/>") +
-                                      visual("<box size=\"1 1 1\"/>", "<origin xyz=\"5 0 0\"/>")));
+  const Mesh mesh =
+      mesh_of(link_with_shapes(visual("<mesh filename=\"t.obj\"/>") +
+                               visual("<box size=\"1 1 1\"/>", "<origin xyz=\"5 0 0\"/>")));
   EXPECT_EQ(mesh.name, "a");
   EXPECT_GE(mesh.submeshes.size(), 2u);
   EXPECT_NEAR(signed_volume(mesh), 2, 1e-5);
@@ -144,7 +147,7 @@ TEST_F(UrdfMeshes, several_shapes_are_one_mesh_of_the_link) {
 TEST_F(UrdfMeshes, the_unit_of_collada_is_applied_and_its_up_axis_is_not) {
   for (const char* const up : {"Z_UP", "Y_UP", "X_UP", ""}) {
     folder_.write("t.dae", collada(up, "0.1"));
-    const Mesh mesh = mesh_of(link_with(visual("<mesh filename=\"t.dae\"/>")));
+    const Mesh mesh = mesh_of(link_with_shapes(visual("<mesh filename=\"t.dae\"/>")));
     expect_box(mesh, Vec3f(0, 0, 0), Vec3f(0.1f, 0.2f, 0.3f));
     const bool is_told = std::any_of(findings_.begin(), findings_.end(), [](const auto& finding) {
       return finding.code == "collada_up_axis";
@@ -154,18 +157,19 @@ TEST_F(UrdfMeshes, the_unit_of_collada_is_applied_and_its_up_axis_is_not) {
   RobotLoadOptions options;
   options.applies_collada_up_axis = true;
   folder_.write("t.dae", collada("Z_UP", "1"));
-  expect_box(mesh_of(link_with(visual("<mesh filename=\"t.dae\"/>")), options), Vec3f(0, 0, 0),
-             Vec3f(1, 2, 3));
+  expect_box(mesh_of(link_with_shapes(visual("<mesh filename=\"t.dae\"/>")), options),
+             Vec3f(0, 0, 0), Vec3f(1, 2, 3));
   folder_.write("t.dae", collada("Y_UP", "1"));
-  expect_box(mesh_of(link_with(visual("<mesh filename=\"t.dae\"/>")), options), Vec3f(0, -3, 0),
-             Vec3f(1, 0, 2));
+  expect_box(mesh_of(link_with_shapes(visual("<mesh filename=\"t.dae\"/>")), options),
+             Vec3f(0, -3, 0), Vec3f(1, 0, 2));
 }
 
 TEST_F(UrdfMeshes, packages_are_found_in_the_given_roots_only) {
   const TemporaryFolder root;
   fs::create_directories(root.path() / "pack" / "meshes");
   root.write("pack/meshes/t.obj", kTetrahedron);
-  const std::string urdf = link_with(visual("<mesh filename=\"package://pack/meshes/t.obj\"/>"));
+  const std::string urdf =
+      link_with_shapes(visual("<mesh filename=\"package://pack/meshes/t.obj\"/>"));
   EXPECT_TRUE(mesh_of(urdf).triangles.empty());
   EXPECT_THAT(findings_, Contains(Field(&RobotFinding::code, "package_unknown")));
   RobotLoadOptions options;
@@ -174,7 +178,7 @@ TEST_F(UrdfMeshes, packages_are_found_in_the_given_roots_only) {
   EXPECT_THAT(findings_, IsEmpty());
   options.package_roots = {root.path() / "pack"};
   EXPECT_EQ(mesh_of(urdf, options).triangles.size(), 4u) << "the package itself may be given";
-  const std::string by_path = link_with(
+  const std::string by_path = link_with_shapes(
       visual("<mesh filename=\"file://" + (root.path() / "pack/meshes/t.obj").string() + "\"/>"));
   EXPECT_EQ(mesh_of(by_path, options).triangles.size(), 4u);
   EXPECT_TRUE(mesh_of(by_path).triangles.empty());
@@ -185,28 +189,28 @@ TEST_F(UrdfMeshes, links_lead_to_no_file_outside) {
   const TemporaryFolder outside;
   const fs::path secret = outside.write("t.obj", kTetrahedron);
   fs::create_symlink(secret, folder_.path() / "link.obj");
-  EXPECT_TRUE(mesh_of(link_with(visual("<mesh filename=\"link.obj\"/>"))).triangles.empty());
+  EXPECT_TRUE(mesh_of(link_with_shapes(visual("<mesh filename=\"link.obj\"/>"))).triangles.empty());
   EXPECT_THAT(findings_, Contains(Field(&RobotFinding::code, "mesh_path_not_allowed")));
   RobotLoadOptions options;
   fs::create_directories(folder_.path() / "pack");
   options.package_roots = {folder_.path()};
   const std::string escape =
       "package://pack/../../" + outside.path().filename().string() + "/t.obj";
-  EXPECT_TRUE(
-      mesh_of(link_with(visual("<mesh filename=\"" + escape + "\"/>")), options).triangles.empty());
+  EXPECT_TRUE(mesh_of(link_with_shapes(visual("<mesh filename=\"" + escape + "\"/>")), options)
+                  .triangles.empty());
   EXPECT_THAT(findings_, Contains(Field(&RobotFinding::code, "mesh_path_not_allowed")));
 }
 
 TEST_F(UrdfMeshes, a_mesh_that_may_be_in_millimetres_is_told) {
   folder_.write("t.obj", kTetrahedron);
-  const Mesh mesh = mesh_of(link_with(visual("<mesh filename=\"t.obj\" scale=\"4 4 4\"/>")));
+  const Mesh mesh = mesh_of(link_with_shapes(visual("<mesh filename=\"t.obj\" scale=\"4 4 4\"/>")));
   EXPECT_EQ(mesh.triangles.size(), 4u);
   EXPECT_THAT(findings_, Contains(Field(&RobotFinding::code, "mesh_huge")));
 }
 
 TEST_F(UrdfMeshes, broken_mesh_files_leave_the_link) {
   folder_.write("t.stl", "this is no STL file");
-  EXPECT_TRUE(mesh_of(link_with(visual("<mesh filename=\"t.stl\"/>"))).triangles.empty());
+  EXPECT_TRUE(mesh_of(link_with_shapes(visual("<mesh filename=\"t.stl\"/>"))).triangles.empty());
   EXPECT_THAT(findings_, Contains(Field(&RobotFinding::code, "mesh_unreadable")));
 }
 
@@ -214,8 +218,8 @@ TEST_F(UrdfMeshes, shapes_above_the_limit_are_refused) {
   RobotLoadOptions options;
   options.meshes.maximum_memory = 1000;
   const auto loaded =
-      load_robot(folder_.write("robot.urdf", link_with(visual("<sphere radius=\"1\"/>"))), options,
-                 &findings_);
+      load_robot(folder_.write("robot.urdf", link_with_shapes(visual("<sphere radius=\"1\"/>"))),
+                 options, &findings_);
   EXPECT_EQ(loaded.error().code(), StatusCode::limit_exceeded);
   EXPECT_THAT(findings_, Contains(Field(&RobotFinding::code, "shapes_too_large")));
 }
@@ -240,7 +244,7 @@ TEST_F(UrdfMeshes, one_mesh_that_is_shown_very_often_is_refused) {
   const auto robot_with = [](int visuals) {
     std::string shapes;
     for (int i = 0; i < visuals; ++i) shapes += visual("<mesh filename=\"grid.obj\"/>");
-    return link_with(shapes);
+    return link_with_shapes(shapes);
   };
   EXPECT_EQ(mesh_of(robot_with(20)).triangles.size(), 20u * 2 * 60 * 60);
   const auto loaded =
@@ -265,7 +269,7 @@ TEST_F(UrdfMeshes, colours_come_from_the_urdf_unless_the_mesh_has_its_own) {
 
 TEST_F(UrdfMeshes, shapes_can_be_chosen) {
   const std::string urdf =
-      link_with("<collision><geometry><box size=\"1 1 1\"/></geometry></collision>");
+      link_with_shapes("<collision><geometry><box size=\"1 1 1\"/></geometry></collision>");
   EXPECT_EQ(mesh_of(urdf).triangles.size(), 12u);
   RobotLoadOptions options;
   options.shapes = RobotShapes::visual;

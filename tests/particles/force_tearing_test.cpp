@@ -184,7 +184,7 @@ TEST(ForceTearing, refuses_bad_options) {
   }
 }
 
-constexpr double kTension = 1.21;
+constexpr double kPulledTension = 1.21;
 
 SoftMaterial tough(double return_stiffness) {
   SoftMaterial material;
@@ -207,7 +207,7 @@ double release_of_slit(std::uint32_t cells, double half_length, double range,
                        const SoftMaterial& material) {
   test::SlitSheet sheet(cells, half_length, range, material);
   sheet.open(1.2);
-  EXPECT_TRUE(sheet.body->set_tension({kTension, {}}));  // so that it is awake
+  EXPECT_TRUE(sheet.body->set_tension({kPulledTension, {}}));  // so that it is awake
   return release_of_tips(*sheet.body, *sheet.set, *sheet.model, sheet.pose);
 }
 
@@ -231,7 +231,7 @@ double release_by_energies(double half_length, const SoftMaterial& material, For
 
 double release_under_tension(double half_length, const SoftMaterial& material) {
   return release_by_energies(half_length, material, [](const test::SlitSheet& sheet) {
-    return test::lip_forces(*sheet.set, kTension);
+    return test::lip_forces(*sheet.set, kPulledTension);
   });
 }
 
@@ -287,7 +287,7 @@ TEST(Toughness, is_exceeded_at_the_same_load_on_a_bent_sheet) {
       ASSERT_TRUE(scene.set->follow(*scene.model, {&change, 1}));
       ASSERT_TRUE(scene.body->set_tension({1.2, {}}));
       scene.run(20, 0.1);
-      ASSERT_TRUE(scene.body->set_tension({kTension, {}}));
+      ASSERT_TRUE(scene.body->set_tension({kPulledTension, {}}));
       EXPECT_NEAR(
           std::sqrt(release_of_tips(*scene.body, *scene.set, *scene.model, scene.pose) / wanted), 1,
           0.06)
@@ -347,7 +347,7 @@ TEST(Toughness, is_exceeded_at_about_the_same_load_at_the_blunt_ends_of_a_gap) {
       ASSERT_TRUE(scene.set->follow(*scene.model, {&change, 1}));
       ASSERT_TRUE(scene.body->set_tension({1.1, {}}));
       scene.run(20, 0.1);
-      ASSERT_TRUE(scene.body->set_tension({kTension, {}}));
+      ASSERT_TRUE(scene.body->set_tension({kPulledTension, {}}));
       EXPECT_NEAR(
           std::sqrt(release_of_tips(*scene.body, *scene.set, *scene.model, scene.pose) / wanted), 1,
           0.3)

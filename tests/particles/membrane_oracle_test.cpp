@@ -19,7 +19,7 @@ using test::MembraneDifference;
 using test::QuadraticMembrane;
 using test::TwoMembranes;
 
-constexpr double kTension = 1.2;
+constexpr double kOracleTension = 1.2;
 
 TwoMembranes soft_and(double stiffness, TwoMembranes::Across across, double border) {
   return {{4, 160}, {stiffness, 160}, across, border};
@@ -54,8 +54,8 @@ TEST(quadratic_membrane, has_the_gap_of_the_formula_in_a_flat_sheet) {
         test::frequency_of(material.membrane_stiffness / (material.areal_density * reach * reach));
     const TwoMembranes one{
         {material.membrane_stiffness, material.membrane_stiffness / (reach * reach)}, {}};
-    EXPECT_NEAR(QuadraticMembrane({}, one, kTension, 12).gap(0.5) /
-                    *gap_under_tension(material, 0.4, kTension),
+    EXPECT_NEAR(QuadraticMembrane({}, one, kOracleTension, 12).gap(0.5) /
+                    *gap_under_tension(material, 0.4, kOracleTension),
                 1, 2e-3)
         << reach;
   }
@@ -63,18 +63,18 @@ TEST(quadratic_membrane, has_the_gap_of_the_formula_in_a_flat_sheet) {
 
 TEST(quadratic_membrane, converges_on_a_ball_of_two_materials) {
   const TwoMembranes two = soft_and(16, TwoMembranes::Across::x, 0.5);
-  const double fine = QuadraticMembrane(ball(), two, kTension, 20).gap(0.4),
-               coarse = QuadraticMembrane(ball(), two, kTension, 10).gap(0.4);
+  const double fine = QuadraticMembrane(ball(), two, kOracleTension, 20).gap(0.4),
+               coarse = QuadraticMembrane(ball(), two, kOracleTension, 10).gap(0.4);
   EXPECT_NEAR(coarse / fine, 1, 2e-3);
-  EXPECT_LT(QuadraticMembrane(ball(), two, kTension, 10).gap(0.6), 0.8 * coarse);
+  EXPECT_LT(QuadraticMembrane(ball(), two, kOracleTension, 10).gap(0.6), 0.8 * coarse);
 }
 
 void expect_near(const GraphSurface& surface, const TwoMembranes& materials, const GraphMesh& mesh,
                  double most_width, double most_displacement) {
-  const QuadraticMembrane wanted(surface, materials, kTension, 10);
+  const QuadraticMembrane wanted(surface, materials, kOracleTension, 10);
   for (const std::uint64_t order : {0u, 1u}) {
     GraphWound wound(surface, materials, mesh, 0.1, order);
-    const MembraneDifference found = wound.difference(wanted, kTension);
+    const MembraneDifference found = wound.difference(wanted, kOracleTension);
     EXPECT_NEAR(found.width, 1, most_width) << order;
     EXPECT_LT(found.displacement, most_displacement) << order;
   }

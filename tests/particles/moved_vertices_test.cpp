@@ -54,7 +54,7 @@ void expect_moved_as_scanned(SoftScene& scene) {
 }
 
 /// One random call: an operation, undo, redo, a push, or steps.
-void act(SoftScene& scene, Random& random) {
+void act_and_move(SoftScene& scene, Random& random) {
   ChangeRecord change;
   bool is_changed = false;
   switch (random.index(6)) {
@@ -79,7 +79,7 @@ void act(SoftScene& scene, Random& random) {
 
 void play_random_calls(SoftScene& scene, Random& random, int calls) {
   for (int i = 0; i < calls; ++i) {
-    ASSERT_NO_FATAL_FAILURE(act(scene, random));
+    ASSERT_NO_FATAL_FAILURE(act_and_move(scene, random));
     if (random.index(3) == 0) continue;
     ASSERT_NO_FATAL_FAILURE(expect_moved_as_scanned(scene));
   }

@@ -17,7 +17,7 @@ namespace {
 using test::FailingAllocations;
 using test::SoftScene;
 
-constexpr double kStep = 1.0 / 60;
+constexpr double kStarvedStep = 1.0 / 60;
 /// More allocations than any of the calls makes.
 constexpr std::uint64_t kMost = 4000;
 
@@ -93,7 +93,7 @@ TEST(OutOfMemory, follow_reports_it_and_nothing_breaks_afterwards) {
         (void)scene.set->settle(*scene.model);
         (void)scene.set->dirty_points();
         (void)scene.set->gradients(*scene.model);
-        (void)scene.body->step(*scene.model, scene.pose, kStep);
+        (void)scene.body->step(*scene.model, scene.pose, kStarvedStep);
         (void)scene.body->displacements();
         for (std::uint32_t p = 0; p < scene.set->particle_count(); ++p) (void)scene.set->members(p);
       });
@@ -139,7 +139,7 @@ TEST(OutOfMemory, accessors_answer_nothing_and_later_all) {
   const auto displaced = [] {
     auto scene = followed();
     EXPECT_TRUE(scene->body->add_impulse(0, {0, 0, 0.01}));
-    scene->step(kStep);
+    scene->step(kStarvedStep);
     return scene;
   };
   starve(
@@ -162,7 +162,7 @@ TEST(OutOfMemory, accessors_that_do_not_list_need_none) {
 
 TEST(OutOfMemory, actions_on_a_body_are_refused_and_change_nothing) {
   const auto has_none = [](TornSheet& scene) {
-    scene.step(kStep);
+    scene.step(kStarvedStep);
     EXPECT_LE(scene.body->colliders().size(), 1u);
   };
   starve(
@@ -203,11 +203,13 @@ TEST(OutOfMemory, a_step_is_refused_and_the_next_one_continues) {
   };
   starve(
       busy,
-      [](TornSheet& scene) { return answer_of(scene.body->step(*scene.model, scene.pose, kStep)); },
+      [](TornSheet& scene) {
+        return answer_of(scene.body->step(*scene.model, scene.pose, kStarvedStep));
+      },
       [](TornSheet& scene) {
         // If settle() had too little memory, the set is broken; the body continues as far as
         // possible.
-        (void)scene.body->step(*scene.model, scene.pose, kStep);
+        (void)scene.body->step(*scene.model, scene.pose, kStarvedStep);
         for (const Vec4f& u : scene.body->displacements()) EXPECT_TRUE(u.allFinite());
       });
 }

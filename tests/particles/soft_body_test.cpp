@@ -34,7 +34,7 @@ std::vector<double> bits_of(const SoftScene& scene) {
   return bits;
 }
 
-Quatd random_turn(test::Random& random) {
+Quatd random_body_turn(test::Random& random) {
   return Quatd(Eigen::AngleAxisd{random.uniform(-3, 3), random.direction()});
 }
 
@@ -478,14 +478,14 @@ TEST(soft_body, nothing_breaks_it) {
           break;
         case 7: {
           const Collider some[] = {
-              {Collider::Sphere{0.4}, random.direction(), random_turn(random), 0.5},
-              {Collider::Box{{0.2, 0.4, 0.3}}, random.direction(), random_turn(random), 0.1}};
+              {Collider::Sphere{0.4}, random.direction(), random_body_turn(random), 0.5},
+              {Collider::Box{{0.2, 0.4, 0.3}}, random.direction(), random_body_turn(random), 0.1}};
           ASSERT_TRUE(body.set_colliders({some, random.index(3)}));
           break;
         }
         case 8:
           if (!body.colliders().empty()) {
-            ASSERT_TRUE(body.move_collider(0, random.direction(), random_turn(random)));
+            ASSERT_TRUE(body.move_collider(0, random.direction(), random_body_turn(random)));
           }
           break;
         case 9:

@@ -13,7 +13,7 @@ namespace {
 
 using test::starve;
 
-const std::shared_ptr<const Character>& tube() {
+const std::shared_ptr<const Character>& starved_tube() {
   static const auto character = std::make_shared<const Character>(test::make_tube(8, 10, 3));
   return character;
 }
@@ -21,8 +21,8 @@ const std::shared_ptr<const Character>& tube() {
 struct Case {
   Case() {
     test::Random random(3);
-    for (int i = 0; i < 2; ++i) poses.push_back(test::random_pose(*tube(), random, 0.3));
-    stroke = test::random_stroke(*tube(), poses[0], random, 0.3, 3);
+    for (int i = 0; i < 2; ++i) poses.push_back(test::random_pose(*starved_tube(), random, 0.3));
+    stroke = test::random_stroke(*starved_tube(), poses[0], random, 0.3, 3);
   }
   Status tear() {
     return test::status_of(instance.tear(poses[0], stroke, {.width = 0.02, .wall_depth = 0.02}));
@@ -35,7 +35,7 @@ struct Case {
     return {positions.begin(), positions.end()};
   }
 
-  CharacterInstance instance = *CharacterInstance::create(tube());
+  CharacterInstance instance = *CharacterInstance::create(starved_tube());
   std::vector<ModelPose> poses;
   Stroke stroke;
 };
@@ -44,11 +44,11 @@ TEST(AllocationFailure, create_says_so) {
   const auto scene = [] { return std::make_unique<Case>(); };
   const auto nothing = [](Case&, const Status&) {};
   starve(
-      scene, [](Case&) { return CharacterInstance::create(tube()); }, nothing);
+      scene, [](Case&) { return CharacterInstance::create(starved_tube()); }, nothing);
   CharacterAssetOptions soft;
   soft.soft.emplace();
   starve(
-      scene, [&](Case&) { return CharacterInstance::create(tube(), soft); }, nothing);
+      scene, [&](Case&) { return CharacterInstance::create(starved_tube(), soft); }, nothing);
 }
 
 TEST(AllocationFailure, a_tear_changes_nothing) {

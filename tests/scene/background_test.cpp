@@ -10,19 +10,12 @@
 
 #include <gtest/gtest.h>
 
+#include "scene/frames.h"
 #include "support/models/random_operations.h"
 #include "support/models/rigs.h"
 
 namespace sunder {
 namespace {
-
-constexpr double kFrame = 1.0 / 64;
-
-template <class T>
-T value_of(Result<T> result) {
-  EXPECT_TRUE(result) << result.error().text();
-  return std::move(*result);
-}
 
 std::shared_ptr<const CharacterAsset> soft_tube() {
   CharacterAssetOptions options;

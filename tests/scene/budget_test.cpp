@@ -8,13 +8,12 @@
 
 #include <gtest/gtest.h>
 
+#include "scene/frames.h"
 #include "support/models/random_operations.h"
 #include "support/models/rigs.h"
 
 namespace sunder {
 namespace {
-
-constexpr double kFrame = 1.0 / 64;
 
 std::shared_ptr<const CharacterAsset> soft_ball() {
   auto character = std::make_shared<Character>(test::make_bumpy_ball(3000));

@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include "scene/frames.h"
 #include "support/machine/allocation_count.h"
 #include "support/machine/stress.h"
 #include "support/models/random_operations.h"
@@ -19,18 +20,12 @@
 namespace sunder {
 namespace {
 
-constexpr double kFrame = 1.0 / 60;
+constexpr double kScreenFrame = 1.0 / 60;
 
 template <class Vector>
 bool same_bits(std::span<const Vector> a, std::span<const Vector> b) {
   return a.size() == b.size() &&
          (a.empty() || std::memcmp(a.data(), b.data(), a.size_bytes()) == 0);
-}
-
-template <class T>
-T value_of(Result<T> result) {
-  EXPECT_TRUE(result) << result.error().text();
-  return std::move(*result);
 }
 
 SoftTissue coarse_tissue() {
@@ -328,7 +323,7 @@ class Duel {
   void frame() {
     if (random_.index(3) > 0) pose_ = test::random_pose(parts_.model.source(), random_, 0.1);
     if (pose_.model_from_bone.empty()) pose_ = *rest_pose(parts_.model.source());
-    const double seconds = random_.index(4) == 0 ? 0.0 : kFrame;
+    const double seconds = random_.index(4) == 0 ? 0.0 : kScreenFrame;
     parts_.frame(pose_, seconds);
     const Status status = draw_frame(instance_, pose_, seconds);
     ASSERT_TRUE(status) << status.text();
@@ -375,7 +370,7 @@ struct TornTube {
       : instance(make_instance(character, is_soft, capacity)) {
     for (int i = 0; i < 8; ++i) poses.push_back(test::random_pose(*character, random, 0.1));
     tear();
-    for (const ModelPose& pose : poses) EXPECT_TRUE(draw_frame(instance, pose, kFrame));
+    for (const ModelPose& pose : poses) EXPECT_TRUE(draw_frame(instance, pose, kScreenFrame));
   }
   void tear() {
     const auto report = instance.tear(poses[0], test::random_stroke(*character, poses[0], random));
@@ -391,10 +386,12 @@ TEST(character_instance, frames_without_a_tear_do_not_allocate) {
       ASSERT_TRUE(tube.instance.body()->set_gravity({0, -9.81, 0}));
     }
     for (int i = 0; i < 20; ++i)
-      ASSERT_TRUE(draw_frame(tube.instance, tube.poses[static_cast<std::size_t>(i) % 8], kFrame));
+      ASSERT_TRUE(
+          draw_frame(tube.instance, tube.poses[static_cast<std::size_t>(i) % 8], kScreenFrame));
     const std::uint64_t before = test::allocation_count();
     for (int i = 0; i < 40; ++i)
-      (void)draw_frame(tube.instance, tube.poses[static_cast<std::size_t>(i / 2) % 8], kFrame);
+      (void)draw_frame(tube.instance, tube.poses[static_cast<std::size_t>(i / 2) % 8],
+                       kScreenFrame);
     EXPECT_EQ(test::allocation_count(), before) << (is_soft ? "soft" : "rigid");
   }
 }
@@ -402,7 +399,7 @@ TEST(character_instance, frames_without_a_tear_do_not_allocate) {
 TEST(character_instance, unchanged_data_is_not_written) {
   TornTube tube(true);
   for (int i = 0; i < 600; ++i)
-    ASSERT_TRUE(draw_frame(tube.instance, tube.poses[0], kFrame));  // comes to rest
+    ASSERT_TRUE(draw_frame(tube.instance, tube.poses[0], kScreenFrame));  // comes to rest
   ASSERT_EQ(tube.instance.body()->awake_count(), 0u);
   const PosedMesh still = tube.instance.mesh(0, tube.instance.mesh(0).epoch);
   EXPECT_TRUE(still.dirty_vertices.empty());
@@ -412,7 +409,7 @@ TEST(character_instance, unchanged_data_is_not_written) {
   const auto two = std::make_shared<const Character>(test::make_two_tubes(10, 10));
   CharacterInstance instance = make_instance(two, false);
   const ModelPose rest = *rest_pose(*two);
-  ASSERT_TRUE(draw_frame(instance, rest, kFrame));
+  ASSERT_TRUE(draw_frame(instance, rest, kScreenFrame));
   const std::uint64_t seen = instance.mesh(0).epoch;
   EXPECT_EQ(instance.mesh(0).dirty_vertices.size(), 1u);  // the first frame draws everything
   test::Random random(5);
@@ -424,7 +421,7 @@ TEST(character_instance, unchanged_data_is_not_written) {
   const Index torn = change.meshes[0].mesh;
   EXPECT_TRUE(instance.mesh(torn).positions.empty());  // nothing to draw before the next frame
   EXPECT_FALSE(instance.mesh(1 - torn).positions.empty());
-  ASSERT_TRUE(draw_frame(instance, rest, kFrame));
+  ASSERT_TRUE(draw_frame(instance, rest, kScreenFrame));
   EXPECT_FALSE(instance.mesh(torn, seen).triangle_writes.empty());
   EXPECT_TRUE(instance.mesh(1 - torn, seen).dirty_vertices.empty());
   EXPECT_TRUE(instance.mesh(1 - torn, seen).triangle_writes.empty());
@@ -434,7 +431,7 @@ TEST(character_instance, a_failing_call_changes_nothing) {
   for (const bool is_soft : {false, true}) {
     TornTube tube(is_soft);
     CharacterInstance& instance = tube.instance;
-    ASSERT_TRUE(draw_frame(instance, tube.poses[1], kFrame));
+    ASSERT_TRUE(draw_frame(instance, tube.poses[1], kScreenFrame));
     const std::uint64_t digest = instance.model()->digest();
     const PosedMesh before = instance.mesh(0);
     const std::vector<Vec3f> positions(before.positions.begin(), before.positions.end());
@@ -442,8 +439,8 @@ TEST(character_instance, a_failing_call_changes_nothing) {
     broken.model_from_bone[3](0, 0) = std::numeric_limits<double>::quiet_NaN();
     shorter.model_from_bone.pop_back();
     const Stroke stroke = test::random_stroke(*tube.character, tube.poses[0], tube.random);
-    EXPECT_EQ(draw_frame(instance, broken, kFrame).code(), StatusCode::non_finite_value);
-    EXPECT_EQ(draw_frame(instance, shorter, kFrame).code(), StatusCode::size_mismatch);
+    EXPECT_EQ(draw_frame(instance, broken, kScreenFrame).code(), StatusCode::non_finite_value);
+    EXPECT_EQ(draw_frame(instance, shorter, kScreenFrame).code(), StatusCode::size_mismatch);
     EXPECT_EQ(draw_frame(instance, tube.poses[2], -1).code(), StatusCode::invalid_argument);
     EXPECT_EQ(draw_frame(instance, tube.poses[2], std::numeric_limits<double>::infinity()).code(),
               StatusCode::non_finite_value);
@@ -495,12 +492,12 @@ TEST(character_instance, compacted_is_as_one_made_of_what_is_left) {
       if (is_soft) {
         ASSERT_TRUE(of->body()->add_impulse(0, {0, 0, 1}));
       }
-      ASSERT_TRUE(draw_frame(*of, tube.poses[2], kFrame));
+      ASSERT_TRUE(draw_frame(*of, tube.poses[2], kScreenFrame));
     }
     expect_same();
     for (CharacterInstance* of : {&instance, &made}) {
       ASSERT_TRUE(of->tear(tube.poses[2], again));
-      ASSERT_TRUE(draw_frame(*of, tube.poses[3], kFrame));
+      ASSERT_TRUE(draw_frame(*of, tube.poses[3], kScreenFrame));
     }
     expect_same();
   }
@@ -511,7 +508,7 @@ TEST(character_instance, buffers_of_fixed_capacity_stay_where_they_are) {
   const Vec3f* const data = tube.instance.mesh(0).positions.data();
   for (int i = 0; i < 6; ++i) {
     tube.tear();
-    ASSERT_TRUE(draw_frame(tube.instance, tube.poses[0], kFrame));
+    ASSERT_TRUE(draw_frame(tube.instance, tube.poses[0], kScreenFrame));
     EXPECT_EQ(tube.instance.mesh(0).positions.data(), data);
   }
 }
@@ -524,7 +521,7 @@ TEST(character_instance, a_cancelled_stroke_leaves_nothing) {
         ASSERT_TRUE(tube.instance.undo());
       }
       const ModelPose& pose = tube.poses[0];
-      for (int i = 0; i < 600; ++i) ASSERT_TRUE(draw_frame(tube.instance, pose, kFrame));
+      for (int i = 0; i < 600; ++i) ASSERT_TRUE(draw_frame(tube.instance, pose, kScreenFrame));
       const std::uint64_t digest = tube.instance.model()->digest();
       const PosedMesh before = tube.instance.mesh(0);
       const std::vector<Vec3f> positions(before.positions.begin(), before.positions.end());
@@ -533,11 +530,11 @@ TEST(character_instance, a_cancelled_stroke_leaves_nothing) {
       ASSERT_TRUE(tube.instance.begin_stroke(pose, stroke[0]));
       for (std::size_t i = 1; i < stroke.size(); ++i) {
         ASSERT_TRUE(tube.instance.extend_stroke(pose, stroke[i]));
-        ASSERT_TRUE(draw_frame(tube.instance, pose, kFrame));
+        ASSERT_TRUE(draw_frame(tube.instance, pose, kScreenFrame));
       }
       EXPECT_NE(tube.instance.model()->digest(), digest);
       ASSERT_TRUE(tube.instance.cancel_stroke());
-      ASSERT_TRUE(draw_frame(tube.instance, pose, kFrame));
+      ASSERT_TRUE(draw_frame(tube.instance, pose, kScreenFrame));
       EXPECT_EQ(tube.instance.model()->digest(), digest);
       EXPECT_TRUE(same_bits<Vec3f>(tube.instance.mesh(0).positions, positions));
     }
@@ -562,7 +559,7 @@ TEST(character_instance, wounds_do_not_depend_on_the_unit_of_bind_space) {
         std::make_shared<const Character>(in_bind_units(tube, units_per_metre)), true);
     EXPECT_TRUE(instance.body()->set_tension({20.0, {}}));
     EXPECT_TRUE(instance.tear(rest, stroke));
-    for (int frame = 0; frame < 90; ++frame) EXPECT_TRUE(draw_frame(instance, rest, kFrame));
+    for (int frame = 0; frame < 90; ++frame) EXPECT_TRUE(draw_frame(instance, rest, kScreenFrame));
     return instance;
   };
   CharacterInstance metres = torn_by(1.0f), units = torn_by(4096.0f);
@@ -596,12 +593,12 @@ TEST(character_instance, tears_where_tissue_is_stretched) {
     }
   std::vector<ChangeRecord> changes;
   for (int i = 0; i < 60; ++i) {
-    ASSERT_TRUE(draw_frame(instance, rest, kFrame));
+    ASSERT_TRUE(draw_frame(instance, rest, kScreenFrame));
     ASSERT_TRUE(instance.tear_overstretched({}, &changes));
   }
   EXPECT_FALSE(changes.empty());
   EXPECT_GT(instance.model()->undo_count(), 0u);
-  ASSERT_TRUE(draw_frame(instance, rest, kFrame));
+  ASSERT_TRUE(draw_frame(instance, rest, kScreenFrame));
   EXPECT_EQ(instance.mesh(0).positions.size(), instance.character().meshes[0].vertex_count());
 }
 
@@ -615,7 +612,7 @@ TEST(character_instance, a_refit_is_swapped_in) {
   const auto report = tube.instance.swap_in(*job);
   ASSERT_TRUE(report) << report.error().text();
   ASSERT_GT(report->points, 0u);
-  ASSERT_TRUE(draw_frame(tube.instance, tube.poses[0], kFrame));
+  ASSERT_TRUE(draw_frame(tube.instance, tube.poses[0], kScreenFrame));
   EXPECT_FALSE(tube.instance.mesh(0).dirty_attributes.empty());
 }
 

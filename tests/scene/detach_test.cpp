@@ -27,13 +27,13 @@ std::uint32_t count_used(const ParticleSet& set) {
   return static_cast<std::uint32_t>(used.size());
 }
 
-struct Case {
+struct DetachCase {
   std::shared_ptr<const Character> tube =
       std::make_shared<const Character>(test::make_tube(40, 24, 3));
   ModelPose pose = *rest_pose(*tube);
   CharacterInstance instance;
 
-  explicit Case(bool is_soft) : instance(make(tube, is_soft)) {}
+  explicit DetachCase(bool is_soft) : instance(make(tube, is_soft)) {}
   static CharacterInstance make(const std::shared_ptr<const Character>& tube, bool is_soft) {
     CharacterAssetOptions options;
     if (is_soft) options.soft.emplace();
@@ -60,7 +60,7 @@ struct Case {
 };
 
 TEST(DetachFromInstance, released_vertices_are_not_skinned) {
-  Case scene(false);
+  DetachCase scene(false);
   Random random(1);
   const auto advance = [&] {
     EXPECT_TRUE(scene.instance.advance(test::random_pose(*scene.tube, random), 0.01));
@@ -86,7 +86,7 @@ TEST(DetachFromInstance, released_vertices_are_not_skinned) {
   const ModelPose pose = test::random_pose(*scene.tube, random);
   ASSERT_TRUE(scene.instance.advance(pose, 0.01));
   ASSERT_TRUE(scene.instance.draw());
-  auto fresh = Case::make(scene.tube, false);
+  auto fresh = DetachCase::make(scene.tube, false);
   ASSERT_TRUE(fresh.advance(pose, 0.01));
   ASSERT_TRUE(fresh.draw());
   const auto now = scene.instance.mesh(0).positions, expected = fresh.mesh(0).positions;
@@ -94,7 +94,7 @@ TEST(DetachFromInstance, released_vertices_are_not_skinned) {
 }
 
 TEST(DetachFromInstance, particles_of_the_piece_vanish) {
-  Case scene(true);
+  DetachCase scene(true);
   for (int i = 0; i < 5; ++i) ASSERT_TRUE(scene.instance.advance(scene.pose, 0.01));
   const PieceNear place = scene.cut_off();
   const std::uint32_t before = count_used(*scene.instance.particles());
@@ -137,7 +137,7 @@ TEST(DetachFromInstance, particles_of_the_piece_vanish) {
   EXPECT_EQ(count_used(*scene.instance.particles()), settled);
 
   // The piece is soft tissue of its own.
-  auto soft = Case::make(piece->character, true);
+  auto soft = DetachCase::make(piece->character, true);
   const auto rest = rest_pose(*piece->character);
   for (int i = 0; i < 5; ++i) ASSERT_TRUE(soft.advance(*rest, 0.01));
   EXPECT_GT(count_used(*soft.particles()), 0u);
@@ -152,7 +152,7 @@ double magnitude(const std::vector<Vec3d>& vectors) {
 
 TEST(DetachFromInstance, a_piece_keeps_the_motion_of_its_tissue) {
   for (const PieceMotion motion : {PieceMotion::animated, PieceMotion::frozen}) {
-    Case scene(true);
+    DetachCase scene(true);
     for (int i = 0; i < 5; ++i) ASSERT_TRUE(scene.instance.advance(scene.pose, 0.01));
     const PieceNear place = scene.cut_off();
     ASSERT_TRUE(scene.instance.advance(scene.pose, 0.01));
@@ -168,7 +168,7 @@ TEST(DetachFromInstance, a_piece_keeps_the_motion_of_its_tissue) {
     ASSERT_TRUE(piece) << piece.error().text();
     ASSERT_EQ(tissue.points.size(), tissue.motions.size());
     ASSERT_FALSE(tissue.points.empty());
-    CharacterInstance detached = Case::make(piece->character, true);
+    CharacterInstance detached = DetachCase::make(piece->character, true);
     ASSERT_TRUE(detached.inherit_motion(*piece, tissue));
 
     std::vector<Vec3d> wanted, missing, wanted_velocities, missing_velocities;
@@ -199,14 +199,14 @@ TEST(DetachFromInstance, a_piece_keeps_the_motion_of_its_tissue) {
 }
 
 TEST(DetachFromInstance, a_hard_piece_has_no_motion_of_tissue) {
-  Case scene(false);
+  DetachCase scene(false);
   PieceTissue tissue;
   tissue.points = {1};
   const PieceNear place = scene.cut_off();
   const auto piece = scene.instance.detach(scene.pose, place, {}, nullptr, &tissue);
   ASSERT_TRUE(piece);
   EXPECT_TRUE(tissue.points.empty());
-  CharacterInstance detached = Case::make(piece->character, false);
+  CharacterInstance detached = DetachCase::make(piece->character, false);
   EXPECT_EQ(detached.inherit_motion(*piece, tissue).code(), StatusCode::invalid_argument);
 }
 

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "scene/frames.h"
 #include "support/machine/counting_resource.h"
 #include "support/models/random_operations.h"
 #include "support/models/rigs.h"
@@ -14,8 +15,6 @@ namespace sunder {
 namespace {
 
 using test::CountingResource;
-
-constexpr double kFrame = 1.0 / 64;
 
 std::shared_ptr<const CharacterAsset> make_asset(CountingResource& memory,
                                                  std::uint32_t vertices = 3000) {

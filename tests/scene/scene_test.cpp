@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include "scene/frames.h"
 #include "support/machine/allocation_count.h"
 #include "support/machine/stress.h"
 #include "support/models/random_operations.h"
@@ -18,21 +19,6 @@
 
 namespace sunder {
 namespace {
-
-constexpr double kFrame = 1.0 / 64;  // sums of it are exact
-
-template <class T>
-T value_of(Result<T> result) {
-  EXPECT_TRUE(result) << result.error().text();
-  return std::move(*result);
-}
-
-LayerOptions layer(double start, PlayMode mode = PlayMode::loop) {
-  LayerOptions options;
-  options.time = start;
-  options.mode = mode;
-  return options;
-}
 
 std::shared_ptr<const CharacterAsset> make_asset(Character character, bool is_soft) {
   CharacterAssetOptions options;

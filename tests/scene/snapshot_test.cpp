@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "fuzz/sealed_snapshot.h"
+#include "scene/frames.h"
 #include "support/machine/stress.h"
 #include "support/models/random_operations.h"
 #include "support/models/rigs.h"
@@ -15,19 +16,10 @@
 namespace sunder {
 namespace {
 
-constexpr double kFrame = 1.0 / 64;
-
-template <class T>
-T value_of(Result<T> result) {
-  EXPECT_TRUE(result) << result.error().text();
-  return std::move(*result);
-}
-
-LayerOptions layer(double start, PlayMode mode = PlayMode::loop) {
-  LayerOptions options;
-  options.time = start;
-  options.mode = mode;
-  return options;
+Scene one_thread_scene() {
+  SceneOptions options;
+  options.threads = 1;
+  return value_of(Scene::create(options));
 }
 
 using Assets = std::vector<std::shared_ptr<const CharacterAsset>>;
@@ -44,12 +36,6 @@ Assets make_assets(bool is_soft) {
     assets.push_back(value_of(
         CharacterAsset::create(std::make_shared<const Character>(std::move(character)), options)));
   return assets;
-}
-
-Scene make_scene() {
-  SceneOptions options;
-  options.threads = 1;
-  return value_of(Scene::create(options));
 }
 
 /// Random calls; the same for scenes that are given the same random numbers.
@@ -141,12 +127,12 @@ void expect_same(Scene& a, Scene& b, const std::vector<InstanceId>& ids) {
 
 void save_and_go_on(bool is_soft, std::uint64_t seed) {
   const Assets assets = make_assets(is_soft);
-  Scene scene = make_scene();
+  Scene scene = one_thread_scene();
   Play play(scene, assets, {}, seed);
   for (int i = 0; i < 12; ++i) play.frame();
   ASSERT_TRUE(scene.update(kFrame));
   const std::vector<std::byte> bytes = value_of(scene.save());
-  Scene restored = make_scene();
+  Scene restored = one_thread_scene();
   (void)value_of(restored.spawn(assets[0]));  // goes away
   const Status status = restored.restore(bytes, assets);
   ASSERT_TRUE(status) << status.text();
@@ -173,7 +159,7 @@ TEST(snapshot, a_restored_scene_goes_on_with_the_same_bits) {
 
 /// A scene with a stroke over frames, a cut and a bore on a tube that plays.
 Scene torn_scene(const Assets& assets) {
-  Scene scene = make_scene();
+  Scene scene = one_thread_scene();
   const InstanceId id = value_of(scene.spawn(assets[0]));
   EXPECT_TRUE(scene.play(id, 0));
   test::Random random(9);
@@ -196,7 +182,7 @@ Scene torn_scene(const Assets& assets) {
 
 /// Saves a scene, restores it, and compares both.
 void expect_restored(Scene& scene, const Assets& assets, const std::vector<InstanceId>& ids) {
-  Scene other = make_scene();
+  Scene other = one_thread_scene();
   const auto restored = other.restore(value_of(scene.save()), assets);
   ASSERT_TRUE(restored) << restored.text();
   ASSERT_TRUE(scene.update(kFrame) && other.update(kFrame));
@@ -205,7 +191,7 @@ void expect_restored(Scene& scene, const Assets& assets, const std::vector<Insta
 
 TEST(snapshot, soft_and_rigid_assets_of_a_character_are_told_apart) {
   const Assets assets = {make_assets(false)[0], make_assets(true)[0]};
-  Scene scene = make_scene();
+  Scene scene = one_thread_scene();
   std::vector<InstanceId> ids;
   for (const auto& asset : assets) {
     ids.push_back(value_of(scene.spawn(asset)));
@@ -224,7 +210,7 @@ TEST(snapshot, an_undone_tear_across_others_leaves_nothing) {
   soft.soft.emplace();
   const Assets assets = {value_of(
       CharacterAsset::create(std::make_shared<const Character>(test::make_sheet(10)), soft))};
-  Scene scene = make_scene();
+  Scene scene = one_thread_scene();
   const InstanceId id = value_of(scene.spawn(assets[0]));
   const auto tear = [&](const Stroke& stroke) {
     TearCommand command;
@@ -254,7 +240,7 @@ TEST(snapshot, moments_of_clips_take_the_place_of_poses) {
 TEST(snapshot, damaged_bytes_are_refused_and_change_nothing) {
   const Assets assets = make_assets(false);
   const std::vector<std::byte> good = value_of(torn_scene(assets).save());
-  Scene scene = make_scene();
+  Scene scene = one_thread_scene();
   const InstanceId kept = value_of(scene.spawn(assets[1]));
   ASSERT_TRUE(scene.update(kFrame));
   const std::vector<std::byte> before = value_of(scene.save());
@@ -292,7 +278,7 @@ TEST(snapshot, damaged_bytes_are_refused_and_change_nothing) {
 
 TEST(snapshot, a_stroke_has_to_end_first) {
   const Assets assets = make_assets(false);
-  Scene scene = make_scene();
+  Scene scene = one_thread_scene();
   const InstanceId id = value_of(scene.spawn(assets[0]));
   ASSERT_TRUE(scene.submit(id, BeginStrokeCommand{{{0, 1, 3}, {0, 1, 0}}, {}, {}}));
   ASSERT_TRUE(scene.update(kFrame));

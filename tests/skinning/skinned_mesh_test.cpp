@@ -31,7 +31,7 @@ std::vector<float> random_morph_weights(Random& random, std::size_t count) {
   return weights;
 }
 
-SkinnedMesh skinned(const Mesh& mesh, std::size_t slots) {
+SkinnedMesh skinned_mesh(const Mesh& mesh, std::size_t slots) {
   Result<SkinnedMesh> made = SkinnedMesh::create(source_of(mesh), slots);
   EXPECT_TRUE(made) << made.error().text();
   return std::move(*made);
@@ -53,7 +53,7 @@ BonePalette palette_of(const std::vector<Affine3f>& matrices,
 
 /// Kinds of meshes: few bones shared by neighbours, as in rigs; random bones; more influences than
 /// engines support; sizes around that of a block, and above that of a window.
-std::vector<RandomSkin> kinds() {
+std::vector<RandomSkin> mesh_kinds() {
   return {{1, 1, 1, 0, false, 1},        {15, 3, 2, 1, false, 3},   {16, 4, 4, 0, true, 4},
           {17, 8, 8, 2, true, 8},        {333, 60, 4, 3, true, 6},  {500, 300, 4, 0, true, 300},
           {700, 400, 24, 1, false, 400}, {1000, 5, 1, 0, false, 5}, {5000, 64, 4, 1, false, 6},
@@ -62,14 +62,14 @@ std::vector<RandomSkin> kinds() {
 
 TEST(SkinnedMesh, agrees_with_the_double_precision_reference) {
   Random random(11);
-  for (const RandomSkin& kind : kinds())
+  for (const RandomSkin& kind : mesh_kinds())
     for (const double scale : {1.0, 1.5}) {
       const Mesh mesh = test::make_random_skin(random, kind);
       const auto exact = test::random_palette(random, kind.slots, scale);
       const auto weights = random_morph_weights(random, kind.morph_targets);
       PosedArrays posed(mesh, 0, true);
       PosedBuffer buffer(posed.target());
-      write(skinned(mesh, kind.slots), palette_of(test::in_float(exact), weights), buffer);
+      write(skinned_mesh(mesh, kind.slots), palette_of(test::in_float(exact), weights), buffer);
       for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
         const Vec3d expected = deform_position_reference(mesh, v, exact, weights);
         ASSERT_LT((posed.position(v).cast<double>() - expected).norm(), 1e-6 * scale * scale)
@@ -98,7 +98,7 @@ TEST(SkinnedMesh, tangents_go_by_the_linear_part_and_keep_w) {
   const auto exact = test::random_palette(random, kind.slots, 1.5);
   PosedArrays posed(mesh);
   PosedBuffer buffer(posed.target());
-  write(skinned(mesh, kind.slots), palette_of(test::in_float(exact), {}), buffer);
+  write(skinned_mesh(mesh, kind.slots), palette_of(test::in_float(exact), {}), buffer);
   for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
     Vec3d expected = Vec3d::Zero();
     for (const Influence& influence : mesh.weights.of(v))
@@ -114,14 +114,14 @@ TEST(SkinnedMesh, a_vertex_has_the_same_bits_at_any_index) {
   // they must not crack.
   Random random(13);
   for (const SkinningMethod method : {SkinningMethod::linear, SkinningMethod::dual_quaternion})
-    for (const RandomSkin& kind : kinds()) {
+    for (const RandomSkin& kind : mesh_kinds()) {
       const Mesh mesh = test::make_random_skin(random, kind);
       const auto matrices = test::in_float(test::random_palette(random, kind.slots, 1.3));
       const auto weights = random_morph_weights(random, kind.morph_targets);
       const BonePalette palette = palette_of(matrices, weights, method);
       PosedArrays posed(mesh);
       PosedBuffer buffer(posed.target());
-      write(skinned(mesh, kind.slots), palette, buffer);
+      write(skinned_mesh(mesh, kind.slots), palette, buffer);
 
       std::vector<std::uint32_t> shuffle(mesh.vertex_count());
       std::iota(shuffle.begin(), shuffle.end(), 0u);
@@ -132,7 +132,7 @@ TEST(SkinnedMesh, a_vertex_has_the_same_bits_at_any_index) {
         ASSERT_TRUE(reorder_vertices(other, order));
         PosedArrays other_posed(other);
         PosedBuffer other_buffer(other_posed.target());
-        write(skinned(other, kind.slots), palette, other_buffer);
+        write(skinned_mesh(other, kind.slots), palette, other_buffer);
         for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v)
           ASSERT_TRUE(other_posed.is_same(v, posed, order[v])) << "vertex " << v;
       }
@@ -143,7 +143,7 @@ TEST(SkinnedMesh, has_the_same_bits_at_every_number_of_tasks) {
   Random random(14);
   const RandomSkin kind = {40000, 64, 4, 0, false, 8};
   const Mesh mesh = test::make_random_skin(random, kind);
-  const SkinnedMesh made = skinned(mesh, kind.slots);
+  const SkinnedMesh made = skinned_mesh(mesh, kind.slots);
   const BonePalette palette =
       palette_of(test::in_float(test::random_palette(random, kind.slots)), {});
   PosedArrays alone(mesh);
@@ -166,21 +166,21 @@ TEST(SkinnedMesh, a_small_mesh_does_not_ask_for_threads) {
   test::BackwardThreads pool{4};
   PosedArrays posed(mesh);
   PosedBuffer buffer(posed.target());
-  write(skinned(mesh, 20), palette_of(test::in_float(test::random_palette(random, 20)), {}), buffer,
-        pool.hook());
+  write(skinned_mesh(mesh, 20), palette_of(test::in_float(test::random_palette(random, 20)), {}),
+        buffer, pool.hook());
   EXPECT_EQ(pool.calls, 0u);
 }
 
 TEST(SkinnedMesh, strides_in_and_out_do_not_change_bits) {
   Random random(16);
-  for (const RandomSkin& kind : kinds()) {
+  for (const RandomSkin& kind : mesh_kinds()) {
     if (kind.morph_targets > 0) continue;
     const Mesh mesh = test::make_random_skin(random, kind);
     const BonePalette palette =
         palette_of(test::in_float(test::random_palette(random, kind.slots, 1.2)), {});
     PosedArrays packed(mesh), padded(mesh, 3);
     PosedBuffer to_packed(packed.target()), to_padded(padded.target());
-    const SkinnedMesh made = skinned(mesh, kind.slots);
+    const SkinnedMesh made = skinned_mesh(mesh, kind.slots);
     write(made, palette, to_packed);
     write(made, palette, to_padded);
     EXPECT_EQ(padded.first_difference(packed), kNone);
@@ -249,7 +249,7 @@ TEST(SkinnedMesh, weights_of_16_bits_are_65535ths) {
   PosedArrays posed(mesh), expected(mesh);
   PosedBuffer buffer(posed.target()), to_expected(expected.target());
   write(*made, palette, buffer);
-  write(skinned(rounded, 6), palette, to_expected);
+  write(skinned_mesh(rounded, 6), palette, to_expected);
   EXPECT_EQ(posed.first_difference(expected), kNone);
 }
 
@@ -273,9 +273,9 @@ TEST(SkinnedMesh, writing_moved_vertices_equals_writing_all) {
   for (int seed = 1; seed <= test::stressed(6, 30); ++seed) {
     Random random(static_cast<std::uint64_t>(seed));
     for (const SkinningMethod method : {SkinningMethod::linear, SkinningMethod::dual_quaternion})
-      for (const RandomSkin& kind : kinds()) {
+      for (const RandomSkin& kind : mesh_kinds()) {
         const Mesh mesh = test::make_random_skin(random, kind);
-        const SkinnedMesh made = skinned(mesh, kind.slots);
+        const SkinnedMesh made = skinned_mesh(mesh, kind.slots);
         auto matrices = test::in_float(test::random_palette(random, kind.slots, 1.2));
         auto weights = random_morph_weights(random, kind.morph_targets);
         BonePalette palette = *BonePalette::create(kind.slots, kind.morph_targets, method);
@@ -310,7 +310,7 @@ TEST(SkinnedMesh, vertices_that_did_not_move_are_not_written) {
   Random random(18);
   const RandomSkin kind = {2000, 50, 3, 1, false, 4};
   const Mesh mesh = test::make_random_skin(random, kind);
-  const SkinnedMesh made = skinned(mesh, kind.slots);
+  const SkinnedMesh made = skinned_mesh(mesh, kind.slots);
   auto matrices = test::in_float(test::random_palette(random, kind.slots));
   BonePalette palette = palette_of(matrices, {0.5f});
   PosedArrays posed(mesh);
@@ -348,7 +348,7 @@ TEST(SkinnedMesh, ranges_ascend_where_the_first_vertices_are_gathered_last) {
     mesh.positions.push_back(random.direction().cast<float>());
     mesh.weights.append(std::vector<Influence>{{v < 16 ? 40 : random.index(40), 1.0f}});
   }
-  const SkinnedMesh made = skinned(mesh, 41);
+  const SkinnedMesh made = skinned_mesh(mesh, 41);
   auto matrices = test::in_float(test::random_palette(random, 41));
   BonePalette palette = palette_of(matrices, {});
   PosedArrays posed(mesh);
@@ -365,7 +365,7 @@ TEST(SkinnedMesh, ranges_ascend_where_the_first_vertices_are_gathered_last) {
 TEST(SkinnedMesh, a_buffer_written_by_another_mesh_is_rewritten) {
   Random random(19);
   const Mesh mesh = test::make_random_skin(random, {100, 6, 4, 0, false, 6});
-  const SkinnedMesh made = skinned(mesh, 6), same = skinned(mesh, 6);
+  const SkinnedMesh made = skinned_mesh(mesh, 6), same = skinned_mesh(mesh, 6);
   const auto matrices = test::in_float(test::random_palette(random, 6));
   const BonePalette palette = palette_of(matrices, {}), twin = palette_of(matrices, {});
   PosedArrays posed(mesh);
@@ -386,7 +386,7 @@ TEST(SkinnedMesh, a_buffer_written_by_another_mesh_is_rewritten) {
 TEST(SkinnedMesh, follows_vertices_that_come_and_go) {
   for (int seed = 1; seed <= test::stressed(5, 30); ++seed) {
     Random random(static_cast<std::uint64_t>(seed));
-    for (RandomSkin kind : kinds()) {
+    for (RandomSkin kind : mesh_kinds()) {
       kind.vertices += 300;
       const Mesh whole = test::make_random_skin(random, kind);
       const auto first_vertices = [&](std::uint32_t count) {
@@ -406,7 +406,7 @@ TEST(SkinnedMesh, follows_vertices_that_come_and_go) {
       const auto weights = random_morph_weights(random, kind.morph_targets);
       BonePalette palette = palette_of(matrices, weights);
       std::uint32_t count = kind.vertices - 300;
-      SkinnedMesh made = skinned(first_vertices(count), kind.slots);
+      SkinnedMesh made = skinned_mesh(first_vertices(count), kind.slots);
       PosedArrays posed(whole);
       VertexTarget target = posed.target();
       target.vertex_count = count;
@@ -427,7 +427,7 @@ TEST(SkinnedMesh, follows_vertices_that_come_and_go) {
         write(made, palette, buffer);
         PosedArrays anew(mesh);
         PosedBuffer to_anew(anew.target());
-        write(skinned(mesh, kind.slots), palette, to_anew);
+        write(skinned_mesh(mesh, kind.slots), palette, to_anew);
         for (std::uint32_t v = 0; v < count; ++v)
           ASSERT_TRUE(posed.is_same(v, anew, v)) << "vertex " << v << " of " << count;
       }
@@ -456,7 +456,7 @@ TEST(SkinnedMesh, a_thousand_kilometres_away_nothing_changes) {
               away = *BonePalette::create(kind.slots, 0);
   ASSERT_TRUE(at_home.set(skin, near));
   ASSERT_TRUE(away.set(skin, far, model_from_character));
-  const SkinnedMesh made = skinned(mesh, kind.slots);
+  const SkinnedMesh made = skinned_mesh(mesh, kind.slots);
   PosedArrays posed(mesh), posed_away(mesh);
   PosedBuffer buffer(posed.target()), buffer_away(posed_away.target());
   write(made, at_home, buffer);
@@ -470,7 +470,7 @@ TEST(SkinnedMesh, a_thousand_kilometres_away_nothing_changes) {
 TEST(SkinnedMesh, refuses_mismatching_arguments_and_writes_nothing) {
   Random random(21);
   const Mesh mesh = test::make_random_skin(random, {50, 6, 4, 1, false, 6});
-  const SkinnedMesh made = skinned(mesh, 6);
+  const SkinnedMesh made = skinned_mesh(mesh, 6);
   const BonePalette palette = palette_of(test::in_float(test::random_palette(random, 6)), {0.5f});
   PosedArrays posed(mesh);
   const auto code_of = [&](const BonePalette& by, const VertexTarget& target) {
@@ -534,7 +534,7 @@ TEST(SkinnedMesh, bad_vertices_are_named) {
   mesh.weights.first.pop_back();
   expect_fault(mesh, StatusCode::size_mismatch, kNone);
 
-  SkinnedMesh made = skinned(good, 6);
+  SkinnedMesh made = skinned_mesh(good, 6);
   mesh = good;
   mesh.positions[49].x() = std::numeric_limits<float>::quiet_NaN();
   EXPECT_EQ(made.update(source_of(mesh), 40).code(), StatusCode::non_finite_value);
@@ -546,12 +546,12 @@ TEST(SkinnedMesh, bad_vertices_are_named) {
   PosedArrays posed(good), expected(good);
   PosedBuffer buffer(posed.target()), to_expected(expected.target());
   write(made, palette, buffer);
-  write(skinned(good, 6), palette, to_expected);
+  write(skinned_mesh(good, 6), palette, to_expected);
   EXPECT_EQ(posed.first_difference(expected), kNone) << "a failing update changed something";
 }
 
 TEST(SkinnedMesh, an_empty_mesh_is_valid) {
-  const SkinnedMesh made = skinned(Mesh(), 3);
+  const SkinnedMesh made = skinned_mesh(Mesh(), 3);
   BonePalette palette = *BonePalette::create(3, 0);
   ASSERT_TRUE(palette.set(std::vector<Affine3f>(3, Affine3f::Identity()), {}));
   PosedBuffer buffer({});

@@ -66,7 +66,7 @@ Mesh random_mesh(Random& random, bool is_full) {
   return mesh;
 }
 
-Character random_character(Random& random) {
+Character random_compacted_character(Random& random) {
   Character character = test::make_tube(2, 3, 3);
   character.rest_morph_weights = {0.0f, 0.5f};
   character.meshes = {random_mesh(random, true), random_mesh(random, false)};
@@ -143,7 +143,7 @@ TEST(Compact, keeps_every_bit_of_remaining_elements) {
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
-    const Character before = random_character(random);
+    const Character before = random_compacted_character(random);
     ASSERT_TRUE(validate_character(before)) << validate_character(before).text();
     Character after = before;
     const CompactMaps maps = compact(after);
@@ -163,7 +163,7 @@ TEST(Compact, keeps_every_bit_of_remaining_elements) {
 TEST(Compact, a_second_time_changes_nothing) {
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
     Random random(seed);
-    Character once = random_character(random);
+    Character once = random_compacted_character(random);
     (void)compact(once);
     Character twice = once;
     const CompactMaps maps = compact(twice);
@@ -194,7 +194,7 @@ TEST(Compact, changes_only_the_number_of_vertices) {
 
 TEST(Compact, a_mesh_may_lose_everything) {
   Random random(3);
-  Character character = random_character(random);
+  Character character = random_compacted_character(random);
   for (Triangle& triangle : character.meshes[0].triangles) triangle = {0, 0, 0};
   const CompactMaps maps = compact(character);
   EXPECT_TRUE(maps.meshes[0].vertex_old_from_new.empty());

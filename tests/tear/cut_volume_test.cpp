@@ -31,7 +31,7 @@ using test::SplitCells;
 using test::SplitTask;
 using testing::IsEmpty;
 
-int count_of_cases(int usual) { return test::stressed(usual, 20); }
+int count_of_bodies(int usual) { return test::stressed(usual, 20); }
 
 // ---- Bodies.
 
@@ -334,7 +334,7 @@ Vec3d somewhere_in(const Character& character, const ModelPose& pose, Random& ra
 /// The positions of a cut are known in double. Rim points of a later cut lie in its plane only
 /// within the precision of stored positions, and so does a vertex that is closer to the plane than
 /// that.
-constexpr double kExact = 1e-12, kStored = 1e-6;
+constexpr double kExactVolume = 1e-12, kStored = 1e-6;
 
 /// Cuts a copy of the body and checks the result.
 struct CutBody {
@@ -438,15 +438,15 @@ std::size_t one(Random&) { return 1; }
 std::size_t several(Random& random) { return 2 + random.index(5); }
 
 TEST(CutVolume, of_one_random_cut_adds_up) {
-  cut_random_bodies(1, count_of_cases(100), in_bind_pose, one, kExact);
+  cut_random_bodies(1, count_of_bodies(100), in_bind_pose, one, kExactVolume);
 }
 
 TEST(CutVolume, of_one_cut_in_a_bent_pose_adds_up) {
-  cut_random_bodies(2, count_of_cases(60), bent, one, kExact);
+  cut_random_bodies(2, count_of_bodies(60), bent, one, kExactVolume);
 }
 
 TEST(CutVolume, of_many_cuts_adds_up) {
-  cut_random_bodies(3, count_of_cases(60), in_bind_pose, several, kStored);
+  cut_random_bodies(3, count_of_bodies(60), in_bind_pose, several, kStored);
 }
 
 /// Whether a plane passes so close to a face, the farthest point of a body or a saddle point that
@@ -486,7 +486,7 @@ bool grazes(const Character& character, const PlaneCut& cut) {
 TEST(CutVolume, of_cuts_through_vertices_and_edges_adds_up) {
   Random random(4);
   std::vector<CutBody> bodies;
-  for (int i = 0; i < count_of_cases(150); ++i) {
+  for (int i = 0; i < count_of_bodies(150); ++i) {
     SCOPED_TRACE(i);
     const Character character = random_body(random);
     const ModelPose pose = *bind_pose(character);
@@ -504,7 +504,7 @@ TEST(CutVolume, of_cuts_through_vertices_and_edges_adds_up) {
     if (body.is_capped) bodies.push_back(std::move(body));
     if (testing::Test::HasFailure()) return;
   }
-  EXPECT_GT(static_cast<int>(bodies.size()), count_of_cases(75));
+  EXPECT_GT(static_cast<int>(bodies.size()), count_of_bodies(75));
   compare(bodies);
 }
 

@@ -31,7 +31,7 @@ using test::make_model;
 using test::Random;
 using testing::IsEmpty;
 
-int count_of_cases(int usual) { return test::stressed(usual, 40); }
+int count_of_hard_cases(int usual) { return test::stressed(usual, 40); }
 
 Result<TearReport> tear_blade_by_blade(TornModel& model, const ModelPose& pose,
                                        const Stroke& stroke, const TearOptions& options) {
@@ -74,9 +74,9 @@ std::string describe(const Bore& bore) {
 /// also under sanitizers and where lines are counted.
 constexpr double kSeconds = 20;
 
-class Subject {
+class DegenerateSubject {
  public:
-  explicit Subject(Character character)
+  explicit DegenerateSubject(Character character)
       : model(make_model(std::move(character))),
         is_clear_(test::is_clear_of_itself(model.source())),
         begin_(test::state_of(model)) {}
@@ -167,7 +167,7 @@ class Subject {
   test::ModelState begin_;
 };
 
-void run_hard_operation(Subject& subject, const ModelPose& pose, Random& random) {
+void run_hard_operation(DegenerateSubject& subject, const ModelPose& pose, Random& random) {
   const test::Target target = test::target_of(subject.model.character(), pose);
   if (target.faces.empty()) return;
   switch (random.index(4)) {
@@ -198,7 +198,7 @@ void run_hard_operation(Subject& subject, const ModelPose& pose, Random& random)
 int run_hard_operations(std::uint64_t seed) {
   SCOPED_TRACE(seed);
   Random random(seed);
-  Subject subject(test::hard_character(random));
+  DegenerateSubject subject(test::hard_character(random));
   ModelPose pose = test::hard_pose(subject.model.source(), random);
   for (int i = 0; i < 4 && !testing::Test::HasFailure(); ++i) {
     run_hard_operation(subject, pose, random);
@@ -210,7 +210,7 @@ int run_hard_operations(std::uint64_t seed) {
 
 TEST(Degenerate, operations_on_hard_subjects_in_hard_poses_keep_every_law) {
   int done = 0;
-  const int count = count_of_cases(400);
+  const int count = count_of_hard_cases(400);
   for (int seed = 0; seed < count; ++seed) {
     done += run_hard_operations(static_cast<std::uint64_t>(seed));
     if (testing::Test::HasFailure()) return;
@@ -232,7 +232,7 @@ TEST(Degenerate, triangles_with_a_point_twice_are_of_no_piece) {
 /// Where the surface of a collapsed bone bends away, the plane of two blades leads back behind the
 /// first of them.
 TEST(Degenerate, a_tear_that_could_go_on_before_its_first_blade_comes_to_an_end) {
-  Subject subject(test::make_sheet(10));
+  DegenerateSubject subject(test::make_sheet(10));
   ModelPose pose = *bind_pose(subject.model.source());
   pose.model_from_bone[0].linear().setZero();
   const Stroke stroke = {{{0.14436965948727123, 0.24107710487067946, 0.5},
@@ -271,11 +271,11 @@ TearOptions any_width(Random& random) {
 }
 
 TEST(Degenerate, tears_meet_older_tears_in_every_way) {
-  for (int seed = 0; seed < count_of_cases(600); ++seed) {
+  for (int seed = 0; seed < count_of_hard_cases(600); ++seed) {
     SCOPED_TRACE(seed);
     Random random(static_cast<std::uint64_t>(seed));
     const std::uint32_t cells = 1 + random.index(12);
-    Subject subject(test::make_sheet(cells));
+    DegenerateSubject subject(test::make_sheet(cells));
     const ModelPose pose = *bind_pose(subject.model.source());
     const auto tear = [&](const Stroke& stroke, const TearOptions& options) {
       if (random.index(3) == 0)
@@ -326,7 +326,7 @@ void tear_ring_in_sheet(std::uint64_t seed) {
   SCOPED_TRACE(seed);
   Random random(seed);
   const std::uint32_t cells = 1 + random.index(16), corners = 3 + random.index(12);
-  Subject subject(test::make_sheet(cells));
+  DegenerateSubject subject(test::make_sheet(cells));
   const ModelPose pose = *bind_pose(subject.model.source());
   const double y = random.uniform(0.4, 0.6),
                x = random.uniform(0.4, 0.6);  // evaluated in this order by every compiler
@@ -368,7 +368,7 @@ void tear_ring_in_sheet(std::uint64_t seed) {
 }
 
 TEST(Degenerate, a_ring_separates_the_piece_inside) {
-  for (int seed = 0; seed < count_of_cases(300) && !testing::Test::HasFailure(); ++seed)
+  for (int seed = 0; seed < count_of_hard_cases(300) && !testing::Test::HasFailure(); ++seed)
     tear_ring_in_sheet(static_cast<std::uint64_t>(seed));
 }
 
@@ -386,7 +386,7 @@ void tear_ring_around_tube(std::uint64_t seed) {
   Random random(seed);
   const std::uint32_t rings = 3 + random.index(12), sides = 3 + random.index(14),
                       blades = 5 + random.index(20);
-  Subject subject(test::make_tube(rings, sides, 3));
+  DegenerateSubject subject(test::make_tube(rings, sides, 3));
   const ModelPose pose = *bind_pose(subject.model.source());
   const double height =
       random.index(2) == 0 ? random.uniform(0.5, 2.5) : 3.0 * (1 + random.index(rings - 1)) / rings;
@@ -412,7 +412,7 @@ void tear_ring_around_tube(std::uint64_t seed) {
 }
 
 TEST(Degenerate, a_ring_around_a_tube_divides_it) {
-  for (int seed = 0; seed < count_of_cases(100) && !testing::Test::HasFailure(); ++seed)
+  for (int seed = 0; seed < count_of_hard_cases(100) && !testing::Test::HasFailure(); ++seed)
     tear_ring_around_tube(static_cast<std::uint64_t>(seed));
 }
 
@@ -432,11 +432,11 @@ TEST(Degenerate, a_gap_goes_across_faces_that_turn_away_from_the_blade) {
 /// Two meshes with skins of their own under one blade.
 TEST(Degenerate, strokes_over_two_meshes_tear_both) {
   int both = 0;
-  for (int seed = 0; seed < count_of_cases(100); ++seed) {
+  for (int seed = 0; seed < count_of_hard_cases(100); ++seed) {
     SCOPED_TRACE(seed);
     Random random(static_cast<std::uint64_t>(seed));
     const std::uint32_t rings = 2 + random.index(8), sides = 3 + random.index(10);
-    Subject subject(test::make_two_tubes(rings, sides));
+    DegenerateSubject subject(test::make_two_tubes(rings, sides));
     const ModelPose pose = test::random_pose(subject.model.source(), random, 0.2, 1.1);
     const auto lower = test::posed_positions(subject.model.source(), 0, pose),
                upper = test::posed_positions(subject.model.source(), 1, pose);
@@ -461,7 +461,7 @@ TEST(Degenerate, strokes_over_two_meshes_tear_both) {
     subject.undo_everything();
     if (testing::Test::HasFailure()) return;
   }
-  EXPECT_GT(both, count_of_cases(90));
+  EXPECT_GT(both, count_of_hard_cases(90));
 }
 
 }  // namespace

@@ -21,14 +21,14 @@ using test::make_model;
 using test::Random;
 using test::state_of;
 
-Operation some_operation(const TornModel& model, Random& random) {
+Operation some_job_operation(const TornModel& model, Random& random) {
   if (random.index(4) > 0 || model.undo_count() == 0) return test::random_operation(model, random);
   WeightsOperation other;
   other.weights.policy = WeightPolicy::exact;
   return other;
 }
 
-PlaneCut cut_at(const Vec3d& point, const Vec3d& normal) {
+PlaneCut job_cut_at(const Vec3d& point, const Vec3d& normal) {
   PlaneCut cut;
   cut.point = point;
   cut.normal = normal;
@@ -36,14 +36,14 @@ PlaneCut cut_at(const Vec3d& point, const Vec3d& normal) {
 }
 
 /// Two equal models, of which the second one has undone operations.
-struct Pair {
-  explicit Pair(std::uint64_t seed)
+struct ModelPair {
+  explicit ModelPair(std::uint64_t seed)
       : random(seed),
         character(test::random_character(random)),
         called(make_model(character)),
         swapped(make_model(character)) {
     for (std::uint32_t n = random.index(4); n > 0; --n) {
-      const Operation operation = some_operation(called, random);
+      const Operation operation = some_job_operation(called, random);
       EXPECT_TRUE(apply_operation(called, operation));
       EXPECT_TRUE(apply_operation(swapped, operation));
     }
@@ -62,8 +62,8 @@ struct Pair {
 TEST(OperationJob, gives_the_bits_and_the_record_of_the_call) {
   for (int seed = 1; seed <= test::stressed(40, 400); ++seed) {
     SCOPED_TRACE(seed);
-    Pair pair(static_cast<std::uint64_t>(seed));
-    const Operation operation = some_operation(pair.called, pair.random);
+    ModelPair pair(static_cast<std::uint64_t>(seed));
+    const Operation operation = some_job_operation(pair.called, pair.random);
     std::vector<ChangeRecord> wanted;
     const auto expected = apply_operation(pair.called, operation, &wanted);
     const auto job = OperationJob::create(pair.swapped, operation);
@@ -104,11 +104,11 @@ TEST(OperationJob, that_misses_changes_nothing) {
   TornModel model = make_model(test::make_sheet(8));
   const ModelPose rest = *rest_pose(model.source());
   ChangeRecord change;
-  ASSERT_TRUE(model.cut(rest, cut_at(Vec3d(0.5, 0.5, 0), Vec3d::UnitX()), &change));
+  ASSERT_TRUE(model.cut(rest, job_cut_at(Vec3d(0.5, 0.5, 0), Vec3d::UnitX()), &change));
   ASSERT_FALSE(change.lips.empty());
   const auto torn = state_of(model);
   const auto job =
-      OperationJob::create(model, CutOperation{rest, cut_at(Vec3d(9, 9, 9), Vec3d::UnitX())});
+      OperationJob::create(model, CutOperation{rest, job_cut_at(Vec3d(9, 9, 9), Vec3d::UnitX())});
   ASSERT_TRUE(job);
   job->run();
   const auto report = job->swap_in(model, &change);
@@ -122,7 +122,7 @@ TEST(OperationJob, that_misses_changes_nothing) {
 TEST(OperationJob, is_refused_where_it_does_not_fit) {
   TornModel model = make_model(test::make_sheet(8));
   const ModelPose rest = *rest_pose(model.source());
-  const CutOperation cut = {rest, cut_at(Vec3d(0.5, 0.5, 0), Vec3d::UnitX())};
+  const CutOperation cut = {rest, job_cut_at(Vec3d(0.5, 0.5, 0), Vec3d::UnitX())};
   EXPECT_EQ(OperationJob::create(model, UndoOperation{}).error().code(),
             StatusCode::invalid_argument);
   const auto job = OperationJob::create(model, cut);
@@ -131,7 +131,7 @@ TEST(OperationJob, is_refused_where_it_does_not_fit) {
   job->run();
   TornModel other = make_model(test::make_sheet(8));
   EXPECT_EQ(job->swap_in(other).error().code(), StatusCode::invalid_argument);
-  ASSERT_TRUE(model.cut(rest, cut_at(Vec3d(0.25, 0.5, 0), Vec3d::UnitX())));
+  ASSERT_TRUE(model.cut(rest, job_cut_at(Vec3d(0.25, 0.5, 0), Vec3d::UnitX())));
   const auto torn = state_of(model);
   EXPECT_EQ(job->swap_in(model).error().code(), StatusCode::invalid_argument);
   EXPECT_EQ(difference(state_of(model), torn), "");
@@ -141,7 +141,7 @@ TEST(OperationJob, is_refused_where_it_does_not_fit) {
   EXPECT_EQ(job->swap_in(model).error().code(), StatusCode::invalid_argument);
 
   const auto bad =
-      OperationJob::create(model, CutOperation{rest, cut_at(Vec3d::Zero(), Vec3d::Zero())});
+      OperationJob::create(model, CutOperation{rest, job_cut_at(Vec3d::Zero(), Vec3d::Zero())});
   ASSERT_TRUE(bad);
   bad->run();
   EXPECT_EQ(bad->poll(), OperationJob::State::failed);
@@ -153,8 +153,8 @@ TEST(OperationJob, without_room_nothing_changes_and_it_can_wait) {
   TornModel model = *TornModel::create(sheet, {20, 20, 4});
   const ModelPose rest = *rest_pose(*sheet);
   const auto before = state_of(model);
-  const auto job =
-      OperationJob::create(model, CutOperation{rest, cut_at(Vec3d(0.5, 0.5, 0), Vec3d(1, 0.1, 0))});
+  const auto job = OperationJob::create(
+      model, CutOperation{rest, job_cut_at(Vec3d(0.5, 0.5, 0), Vec3d(1, 0.1, 0))});
   ASSERT_TRUE(job);
   job->run();
   ASSERT_EQ(job->poll(), OperationJob::State::done);

@@ -117,7 +117,7 @@ class Torn {
   std::vector<SurfaceEditor::Redo> undone;
 };
 
-Character some_rig(Random& random) {
+Character some_forest_rig(Random& random) {
   Character character;
   switch (random.index(6)) {
     case 0: return test::make_sheet(1 + random.index(20));
@@ -333,7 +333,7 @@ TEST(PatchForest, hilbert_curve_goes_from_neighbour_to_neighbour) {
 void expect_bounds_hold(std::uint64_t seed, std::size_t& known_sides) {
   SCOPED_TRACE(seed);
   Random random(seed);
-  Torn torn(some_rig(random));
+  Torn torn(some_forest_rig(random));
   for (int i = 0; i < 6; ++i) {
     for (int k = 0; k < 3; ++k) {
       torn.stand_in(some_pose(torn.source, random));
@@ -414,7 +414,7 @@ TEST(PatchForest, finds_the_same_as_testing_every_face) {
   int hits = 0, contacts = 0, faces_in_cells = 0, faces_across_sheets = 0;
   for (std::uint64_t seed = 0; seed < count_of_cases(60); ++seed) {
     Random random(1000 + seed);
-    Torn torn(some_rig(random));
+    Torn torn(some_forest_rig(random));
     for (int round = 0; round < 5; ++round) {
       torn.stand_in(random.index(3) == 0 ? hard_pose(torn.source, random)
                                          : test::random_pose(torn.source, random));
@@ -485,7 +485,7 @@ TEST(PatchForest, a_sweep_in_one_plane_begins_at_its_blade) {
   int entries = 0;
   for (std::uint64_t seed = 0; seed < count_of_cases(60); ++seed) {
     Random random(2000 + seed);
-    Torn torn(some_rig(random));
+    Torn torn(some_forest_rig(random));
     torn.stand_in(test::random_pose(torn.source, random));
     const double size = size_of(torn);
     for (int i = 0; i < 30; ++i) {

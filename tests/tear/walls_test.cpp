@@ -30,7 +30,7 @@ double volume_of(const TornModel& model, const ModelPose& pose) {
   return volume;
 }
 
-void expect_sound(const TornModel& model) {
+void expect_sound_walls(const TornModel& model) {
   EXPECT_THAT(test::broken_laws(model), IsEmpty());
   EXPECT_THAT(test::broken_surface(model), IsEmpty());
   EXPECT_EQ(count_topology(model.character())->non_manifold_edges, 0u);
@@ -60,7 +60,7 @@ TEST(Walls, of_a_tear_start_at_its_lips) {
     EXPECT_EQ(counts.boundary_edges, bare.boundary_edges);
     EXPECT_EQ(counts.boundary_loops, 1u);
     EXPECT_EQ(counts.components, 1u);
-    expect_sound(model);
+    expect_sound_walls(model);
     const Mesh& mesh = model.character().meshes[0];
     EXPECT_EQ(mesh.submeshes.back().name, "wall");
     EXPECT_EQ(mesh.submeshes.size(), model.source().meshes[0].submeshes.size() + 1);
@@ -104,7 +104,7 @@ TEST(Walls, of_a_bore_through_a_body_close_it) {
   };
   EXPECT_EQ(euler(counts), euler(before) - 2);
   EXPECT_LT(volume_of(model, pose), whole);
-  expect_sound(model);
+  expect_sound_walls(model);
 }
 
 TEST(Walls, of_a_blind_bore_have_a_floor) {
@@ -122,7 +122,7 @@ TEST(Walls, of_a_blind_bore_have_a_floor) {
   const double removed = whole - volume_of(model, pose);
   EXPECT_GT(removed, 0.5 * std::numbers::pi * 0.01 * 0.1);
   EXPECT_LT(removed, std::numbers::pi * 0.01 * 0.35);
-  expect_sound(model);
+  expect_sound_walls(model);
 }
 
 TEST(Walls, of_random_operations_keep_every_invariant) {

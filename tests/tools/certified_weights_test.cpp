@@ -22,7 +22,7 @@ namespace sunder::command_test {
 namespace {
 
 /// The rounding of skinning and weights in float32, and the order of sums; share of the diagonal.
-constexpr double kRounding = 1e-6;
+constexpr double kCertifiedRounding = 1e-6;
 
 class CertifiedWeightsCommand : public CactusSuite {
  protected:
@@ -168,7 +168,7 @@ class CertifiedFiles : public CertifiedWeightsCommand,
   }
 
   static void expect_certified(const FilePair& pair, double error, LimitsFrom limits) {
-    const double tolerance = kRounding * diagonal_of(*pair.plain);
+    const double tolerance = kCertifiedRounding * diagonal_of(*pair.plain);
     const double reported = pair.certificate["certified_maximum"].get<double>();
     EXPECT_LE(reported, error);
     EXPECT_NEAR(certified_between(*pair.plain, *pair.pruned, limits), reported, tolerance);
@@ -392,7 +392,7 @@ TEST_F(CertifiedWeightsCommand, a_transfer_is_pruned_against_its_own_unpruned_re
   ASSERT_TRUE(plain && pruned);
   const double certified =
       certified_between(*plain->character, *pruned->character, LimitsFrom::clips);
-  EXPECT_LE(certified, 0.002 * (1 + kRounding));
+  EXPECT_LE(certified, 0.002 * (1 + kCertifiedRounding));
   EXPECT_NEAR(certified, certificate["certified_maximum"].get<double>(), 1e-6);
 }
 

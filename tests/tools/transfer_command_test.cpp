@@ -11,7 +11,7 @@ namespace sunder::command_test {
 namespace {
 
 /// The cactus as one rigid model: no bone moves it.
-Character stiff_cactus() {
+Character sunk_cactus() {
   Character character = tools::make_cactus();
   Bone node;
   node.name = "Plant";
@@ -36,7 +36,7 @@ class TransferCommand : public CommandSuite {
   static void SetUpTestSuite() {
     CommandSuite::SetUpTestSuite();
     ASSERT_TRUE(save_glb(source(), tools::make_cactus()));
-    ASSERT_TRUE(save_glb(stiff(), stiff_cactus()));
+    ASSERT_TRUE(save_glb(stiff(), sunk_cactus()));
   }
   static std::string source() { return path("source.glb"); }
   static std::string stiff() { return path("stiff.glb"); }
@@ -125,7 +125,7 @@ TEST_F(TransferCommand, inputs_are_never_overwritten) {
 }
 
 TEST_F(TransferCommand, nothing_matched_is_said_and_exits_with_2) {
-  Character far = stiff_cactus();
+  Character far = sunk_cactus();
   far.skeleton.bones[0].rest.translation.x() = 40;
   ASSERT_TRUE(save_glb(path("far.glb"), far));
   const CommandResult result =

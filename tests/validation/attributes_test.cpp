@@ -11,15 +11,10 @@
 #include <gtest/gtest.h>
 
 #include "support/models/rigs.h"
+#include "validation/shared_character.h"
 
 namespace sunder::test {
 namespace {
-
-using Shared = std::shared_ptr<const Character>;
-
-Shared share(Character character) {
-  return std::make_shared<const Character>(std::move(character));
-}
 
 constexpr std::array kCodes = {"SUNDER_W_NORMALS", "SUNDER_W_TANGENTS", "SUNDER_W_UV",
                                "SUNDER_W_MORPH_LOST"};

@@ -21,8 +21,6 @@ using test::RandomRig;
 using test::RandomRigKind;
 using test::RandomWeights;
 
-constexpr double kPi = std::numbers::pi;
-
 double smallest_of(const RandomRig& rig, const std::vector<Affine3d>& pose,
                    const RandomWeights& weights) {
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(3, 3);
@@ -62,7 +60,7 @@ double plain_bound(const RandomRig& rig, const RandomWeights& weights) {
           const bool is_hinge = range.turn == JointRange::Turn::hinge;
           const double angle =
               is_hinge ? std::max(std::abs(range.lower), std::abs(range.upper)) : range.angle;
-          bound -= weights.weights[i] * 2 * std::sin(std::min(angle, kPi) / 2);
+          bound -= weights.weights[i] * 2 * std::sin(std::min(angle, std::numbers::pi) / 2);
         }
     }
     best = std::max(best, bound);
@@ -119,7 +117,7 @@ RandomRig bent_arm(double angle) {
 }
 
 TEST(BlendBound, two_bones_are_exact) {
-  for (const double angle : {0.3, 1.0, 2.0, 3.0, kPi})
+  for (const double angle : {0.3, 1.0, 2.0, 3.0, std::numbers::pi})
     for (const double weight : {0.5, 0.2, 0.9}) {
       const RandomRig rig = bent_arm(angle);
       const RandomWeights weights{{0, 1}, {1 - weight, weight}};
@@ -137,7 +135,7 @@ TEST(BlendBound, two_bones_are_exact) {
 
 TEST(BlendBound, one_bone_is_rigid) {
   Random random(32);
-  const RandomRig rig = bent_arm(kPi);
+  const RandomRig rig = bent_arm(std::numbers::pi);
   const auto bounds = certify_blend(test::make_tree(rig), row_of({{1}, {1.0}}));
   ASSERT_TRUE(bounds);
   EXPECT_NEAR((*bounds)[0], 1, 1e-9);

@@ -19,7 +19,6 @@ using test::RandomRig;
 using test::RandomRigKind;
 using test::RandomWeights;
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kRounding = 1e-12;  // of points within a few metres, posed in double
 
 /// A difference of two skinned points, kept as what it is made of so that it can be posed.
@@ -165,7 +164,7 @@ RandomRig two_bones(const JointRange& range) {
   rig.skeleton.bones[1].parent = 0;
   rig.bind.model_from_bone.assign(2, Affine3d::Identity());
   rig.bind.model_from_bone[1].linear() =
-      Eigen::AngleAxisd(kPi / 2, Vec3d(0, 0, 1)).toRotationMatrix();
+      Eigen::AngleAxisd(std::numbers::pi / 2, Vec3d(0, 0, 1)).toRotationMatrix();
   rig.bind.model_from_bone[1].translation() = Vec3d(0, 1, 0);
   rig.limits.of_bone = {JointRange{}, range};
   return rig;
@@ -195,18 +194,18 @@ void expect_attained(const JointRange& range, double expected) {
 
 TEST(DeviationBound, one_joint_is_exact) {
   const double arm = std::sqrt(5.0);  // from (0, 1, 0) to (0, 3, 1)
-  for (const double angle : {0.01, 0.5, 1.5, 2.5, kPi, 4.0}) {
+  for (const double angle : {0.01, 0.5, 1.5, 2.5, std::numbers::pi, 4.0}) {
     JointRange ball;
     ball.angle = angle;
-    expect_attained(ball, 0.25 * 2 * std::sin(std::min(angle, kPi) / 2) * arm);
+    expect_attained(ball, 0.25 * 2 * std::sin(std::min(angle, std::numbers::pi) / 2) * arm);
     JointRange hinge;  // the bone's y axis is -x of the model: the whole arm lies across
     hinge.turn = JointRange::Turn::hinge;
     hinge.axis = Vec3d(0, 3, 0);
     hinge.lower = -0.3 * angle;
     hinge.upper = angle;
-    expect_attained(hinge, 0.25 * 2 * std::sin(std::min(angle, kPi) / 2) * arm);
+    expect_attained(hinge, 0.25 * 2 * std::sin(std::min(angle, std::numbers::pi) / 2) * arm);
     hinge.axis = Vec3d(1, 0, 0);  // y of the model: only the part along z lies across
-    expect_attained(hinge, 0.25 * 2 * std::sin(std::min(angle, kPi) / 2) * 1.0);
+    expect_attained(hinge, 0.25 * 2 * std::sin(std::min(angle, std::numbers::pi) / 2) * 1.0);
   }
   JointRange slide;
   slide.angle = 0;

@@ -20,8 +20,6 @@ namespace {
 
 using test::Random;
 
-constexpr double kPi = std::numbers::pi;
-
 struct SkinnedScene {
   Character character;
   ModelPose bind;
@@ -68,7 +66,7 @@ Vec3d posed(const Character& character, const CharacterPose& pose, std::uint32_t
 
 TEST(SkinRows, are_what_skinning_poses) {
   Random random(41);
-  const SkinnedScene scene = tube(kPi);
+  const SkinnedScene scene = tube(std::numbers::pi);
   const std::uint32_t vertices = scene.character.meshes[0].vertex_count();
   for (int i = 0; i < 100; ++i) {
     const std::uint32_t a = random.index(vertices), b = random.index(vertices);
@@ -93,7 +91,7 @@ TEST(SkinRows, are_what_skinning_poses) {
 
 TEST(SkinRows, of_equal_copies_are_empty) {
   Random random(42);
-  SkinnedScene scene = tube(kPi);
+  SkinnedScene scene = tube(std::numbers::pi);
   Mesh& mesh = scene.character.meshes[0];
   const std::uint32_t count = mesh.vertex_count();
   SkinDifferences rows;
@@ -132,7 +130,7 @@ double crack_formula(const SkinnedScene& scene, std::uint32_t a, std::uint32_t b
 
 TEST(Crack, of_a_t_junction_is_at_most_the_formula_and_holds) {
   Random random(43);
-  for (const double angle : {0.5, 1.5, kPi}) {
+  for (const double angle : {0.5, 1.5, std::numbers::pi}) {
     SkinnedScene scene = tube(angle);
     Mesh& mesh = scene.character.meshes[0];
     const std::uint32_t count = mesh.vertex_count();
@@ -297,7 +295,7 @@ TEST(CertifiedInfluences, have_no_bound_if_weight_crosses_a_slide_without_range)
 }
 
 TEST(SkinRows, report_what_was_divided) {
-  SkinnedScene scene = tube(kPi);
+  SkinnedScene scene = tube(std::numbers::pi);
   Mesh& mesh = scene.character.meshes[0];
   const std::uint32_t count = mesh.vertex_count();
   std::vector<Influence> copy(mesh.weights.of(7).begin(), mesh.weights.of(7).end());

@@ -19,8 +19,6 @@ namespace {
 
 using test::Random;
 
-constexpr double kPi = std::numbers::pi;
-
 Quatf random_rotation(Random& random, double angle) {
   return Quatd(Eigen::AngleAxisd(random.uniform(0, angle), random.direction())).cast<float>();
 }
@@ -83,7 +81,7 @@ AnimatedRig random_animated_rig(Random& random, Scales scales, double angle, boo
     bone.name = std::to_string(i);
     if (i > 0) bone.parent = random.index(4) == 0 ? 0 : i - 1;
     bone.rest.translation = in_float(0.3 * random.direction());
-    bone.rest.rotation = random_rotation(random, kPi);
+    bone.rest.rotation = random_rotation(random, std::numbers::pi);
     bone.rest.scale = random_scale(random, scales, i + 1 == count);
     BoneTransform local = bone.rest;  // bind differs from rest
     local.rotation = local.rotation * random_rotation(random, angle);
@@ -138,7 +136,7 @@ double expect_within(const Affine3d& motion, const Affine3d& bone, const JointRa
   EXPECT_LE(svd.singularValues()[0], range.scale_upper);
   EXPECT_GE(svd.singularValues()[2], range.scale_lower);
   const Mat3d rotation = svd.matrixU() * svd.matrixV().transpose();
-  const double angle = rotation.determinant() > 0 ? angle_of(rotation) : kPi;
+  const double angle = rotation.determinant() > 0 ? angle_of(rotation) : std::numbers::pi;
   EXPECT_LE(angle, range.angle);
   Mat3d axes = bone.linear();
   for (int i = 0; i < 3; ++i) axes.col(i).normalize();
@@ -166,7 +164,8 @@ TEST(JointLimitsOfClips, hold_every_pose_between_keys_too) {
   int wide = 0, tight = 0;
   for (int i = 0; i < test::stressed(60, 20); ++i) {
     const auto scales = static_cast<Scales>(i % 3);
-    const AnimatedRig rig = random_animated_rig(random, scales, i % 2 == 0 ? 0.6 : kPi, i % 4 == 3);
+    const AnimatedRig rig =
+        random_animated_rig(random, scales, i % 2 == 0 ? 0.6 : std::numbers::pi, i % 4 == 3);
     const auto limits = joint_limits_of_clips(rig.character, rig.bind, 0);
     ASSERT_TRUE(limits) << limits.error().text();
     std::vector<double> largest;
@@ -222,7 +221,7 @@ TEST(JointLimitsOfClips, hold_in_cross_fades_where_angles_are_below_90_degrees) 
       ModelPose pose;
       ASSERT_TRUE(compute_model_pose(rig.character.skeleton, faded, pose));
       for (std::size_t bone = 0; bone < limits->of_bone.size(); ++bone) {
-        if (limits->of_bone[bone].angle >= kPi / 2) continue;
+        if (limits->of_bone[bone].angle >= std::numbers::pi / 2) continue;
         ++narrow;
         const std::uint32_t parent = rig.character.skeleton.bones[bone].parent;
         const double scale =
@@ -301,7 +300,8 @@ double limit_of(const Character& character, double margin) {
 TEST(JointLimitsOfClips, slerp_that_passes_half_a_turn_reaches_it) {
   EXPECT_NEAR(limit_of(turned_bone(-0.3, 0.7), 0), 0.7, 1e-5);
   EXPECT_NEAR(limit_of(turned_bone(2.0, 2.5), 0), 2.5, 1e-5);
-  EXPECT_NEAR(limit_of(turned_bone(2.5, 3.8), 0), kPi, 1e-5) << "both keys are below it";
+  EXPECT_NEAR(limit_of(turned_bone(2.5, 3.8), 0), std::numbers::pi, 1e-5)
+      << "both keys are below it";
   EXPECT_NEAR(limit_of(turned_bone(-0.3, 0.7), 0.25), 0.95, 1e-5);
 }
 
@@ -318,7 +318,7 @@ TEST(JointLimits, free_joints_turn_without_limit_and_roots_slide) {
   ASSERT_TRUE(limits);
   for (std::size_t bone = 0; bone < limits->of_bone.size(); ++bone) {
     const JointRange& range = limits->of_bone[bone];
-    EXPECT_EQ(range.angle, kPi);
+    EXPECT_EQ(range.angle, std::numbers::pi);
     EXPECT_EQ(std::isinf(range.slide_radius), rig.character.skeleton.bones[bone].parent == kNone);
     if (std::isinf(range.slide_radius)) continue;
     for (const Clip& clip : rig.character.clips)

@@ -10,15 +10,10 @@
 
 #include "support/models/own_models.h"
 #include "support/models/planted_mistakes.h"
+#include "validation/shared_character.h"
 
 namespace sunder::test {
 namespace {
-
-using Shared = std::shared_ptr<const Character>;
-
-Shared share(Character character) {
-  return std::make_shared<const Character>(std::move(character));
-}
 
 const Finding* find_code(const ValidationReport& report, const std::string& code) {
   const auto found = std::ranges::find(report.findings, code, &Finding::code);

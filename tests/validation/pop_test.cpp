@@ -12,13 +12,12 @@
 #include <gtest/gtest.h>
 
 #include "support/models/rigs.h"
+#include "validation/shared_character.h"
 
 namespace sunder::test {
 namespace {
 
 using testing::HasSubstr;
-using Shared = std::shared_ptr<const Character>;
-
 /// A tube of few faces, so that new vertices leave the surface when bones twist.
 Shared coarse_tube() {
   Character tube = make_tube(6, 10, 3);

@@ -10,12 +10,11 @@
 namespace sunder::test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 Affine3d rigid(Random& random, double reach) {
   Affine3d matrix = Affine3d::Identity();
   const Vec3d axis = random.direction();
-  const double angle = random.uniform(-kPi, kPi), length = random.uniform(0, reach);
+  const double angle = random.uniform(-std::numbers::pi, std::numbers::pi),
+               length = random.uniform(0, reach);
   const Vec3d direction = random.direction();
   matrix.linear() = Eigen::AngleAxisd(angle, axis).toRotationMatrix();
   matrix.translation() = length * direction;
@@ -55,7 +54,7 @@ Affine3d random_motion(Random& random, const JointRange& range, const Affine3d& 
   Mat3d axes = bone.linear();
   for (int i = 0; i < 3; ++i) axes.col(i).normalize();
   Vec3d axis = random.direction();
-  double angle = extreme(random, 0, std::min(range.angle, kPi));
+  double angle = extreme(random, 0, std::min(range.angle, std::numbers::pi));
   if (range.turn == JointRange::Turn::hinge) {
     axis = (axes * range.axis).normalized();
     angle = extreme(random, range.lower, range.upper);
@@ -66,7 +65,7 @@ Affine3d random_motion(Random& random, const JointRange& range, const Affine3d& 
       extreme(random, 0, std::isfinite(range.slide_radius) ? range.slide_radius : 0) *
           random.direction();
   const Mat3d turn =
-      Eigen::AngleAxisd(random.uniform(0, kPi), random.direction()).toRotationMatrix();
+      Eigen::AngleAxisd(random.uniform(0, std::numbers::pi), random.direction()).toRotationMatrix();
   const Vec3d stretch(extreme(random, range.scale_lower, range.scale_upper),
                       extreme(random, range.scale_lower, range.scale_upper),
                       extreme(random, range.scale_lower, range.scale_upper));

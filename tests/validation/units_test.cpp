@@ -12,15 +12,10 @@
 #include <gtest/gtest.h>
 
 #include "support/models/rigs.h"
+#include "validation/shared_character.h"
 
 namespace sunder::test {
 namespace {
-
-using Shared = std::shared_ptr<const Character>;
-
-Shared share(Character character) {
-  return std::make_shared<const Character>(std::move(character));
-}
 
 /// Moves half of the larger weight of each blended vertex to the smaller one.
 Character with_mixed_weights(const Character& character) {

@@ -15,7 +15,7 @@
 namespace sunder::test {
 namespace {
 
-void expect_no_alarm(const ValidationReport& report, const std::string& what) {
+void expect_nothing_found(const ValidationReport& report, const std::string& what) {
   for (const Finding& finding : report.findings)
     EXPECT_EQ(finding.severity, Severity::note)
         << what << ": " << finding.code << ": " << finding.text;
@@ -35,7 +35,7 @@ TEST(Untouched, rigged_files_give_no_alarm_and_certify_zero) {
     options.stored_source = options.stored_target = loaded->stored;
     const auto report = validate_skin(loaded->character, loaded->character, options);
     ASSERT_TRUE(report) << file << report.error().text();
-    expect_no_alarm(*report, file.string());
+    expect_nothing_found(*report, file.string());
     EXPECT_EQ(report->bracket.certified, 0.0) << file;
     EXPECT_EQ(report->bracket.uncertified, 0u) << file << report->bracket.why;
   }
@@ -78,7 +78,7 @@ TEST(Untouched, our_own_torn_outputs_give_no_alarm) {
       if (with_log) options.operations = operations;
       const auto report = validate_skin(source->character, target->character, options);
       ASSERT_TRUE(report) << report.error().text();
-      expect_no_alarm(*report, model.file + (with_log ? " with its log" : ""));
+      expect_nothing_found(*report, model.file + (with_log ? " with its log" : ""));
       EXPECT_GE(report->bracket.certified, report->bracket.found * (1 - 1e-9));
       for (const PosedFigures& figures : report->posed)
         if (figures.poses == "random") {

@@ -15,17 +15,12 @@
 #include <gtest/gtest.h>
 
 #include "support/models/rigs.h"
+#include "validation/shared_character.h"
 
 namespace sunder::test {
 namespace {
 
 using testing::HasSubstr;
-using Shared = std::shared_ptr<const Character>;
-
-Shared share(Character character) {
-  return std::make_shared<const Character>(std::move(character));
-}
-
 /// A tube and a copy whose first bone lost a tenth of its weight to the second one.
 std::pair<Character, Character> tube_and_copy() {
   Character source = make_tube(16, 12, 4), target = source;

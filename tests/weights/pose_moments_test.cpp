@@ -10,17 +10,17 @@
 namespace sunder {
 namespace {
 
-constexpr std::uint32_t kSlots = 12;
+constexpr std::uint32_t kMomentSlots = 12;
 
 /// The difference of two points: some slots in any order; last components that add up to zero.
 std::vector<AnimationPoint::Term> random_difference(test::Random& random) {
   std::vector<std::uint32_t> slots;
-  for (std::uint32_t slot = 0; slot < kSlots; ++slot) slots.push_back(slot);
+  for (std::uint32_t slot = 0; slot < kMomentSlots; ++slot) slots.push_back(slot);
   std::vector<AnimationPoint::Term> difference;
   const std::uint32_t count = 2 + random.index(6);
   double sum = 0;
   for (std::uint32_t i = 0; i < count; ++i) {
-    std::swap(slots[i], slots[i + random.index(kSlots - i)]);
+    std::swap(slots[i], slots[i + random.index(kMomentSlots - i)]);
     const double weight = i + 1 < count ? random.uniform(-1, 1) : -sum;
     sum += weight;
     const Vec3d place = random.direction();
@@ -56,14 +56,14 @@ TEST(PoseMoments, mean_square_is_the_mean_over_the_poses) {
   test::Random random(1);
   for (int i = 0; i < 200; ++i) {
     const auto difference = random_difference(random);
-    PoseMoments moments(kSlots, Vec3d::Zero());
+    PoseMoments moments(kMomentSlots, Vec3d::Zero());
     moments.want(point_of(random_difference(random)));
     moments.want(point_of(difference));
     moments.want(point_of(random_difference(random)));
     std::vector<std::vector<Affine3d>> palettes;
     const std::uint32_t poses = 1 + random.index(9);
     for (std::uint32_t pose = 0; pose < poses; ++pose) {
-      palettes.push_back(test::random_palette(random, kSlots, 2));
+      palettes.push_back(test::random_palette(random, kMomentSlots, 2));
       moments.add(palettes.back());
     }
     EXPECT_EQ(moments.pose_count(), palettes.size());
@@ -77,11 +77,11 @@ TEST(PoseMoments, nothing_is_lost_a_thousand_kilometres_from_the_origin) {
   const Vec3d centre(1e6, -3e5, 2e5);
   for (int i = 0; i < 100; ++i) {
     const auto difference = random_difference(random);
-    PoseMoments moments(kSlots, centre);
+    PoseMoments moments(kMomentSlots, centre);
     moments.want(point_of(difference));
     std::vector<std::vector<Affine3d>> palettes;
     for (int pose = 0; pose < 5; ++pose) {
-      palettes.push_back(test::random_palette(random, kSlots));
+      palettes.push_back(test::random_palette(random, kMomentSlots));
       std::vector<Affine3d> there = palettes.back();
       for (Affine3d& matrix : there)
         matrix = Eigen::Translation3d(centre) * matrix * Eigen::Translation3d(-centre);
@@ -97,7 +97,7 @@ TEST(PoseMoments, a_pair_is_held_once) {
   test::Random random(3);
   const auto difference = random_difference(random);
   const std::size_t n = difference.size();
-  PoseMoments moments(kSlots, Vec3d::Zero());
+  PoseMoments moments(kMomentSlots, Vec3d::Zero());
   moments.want(point_of(difference));
   moments.want(point_of({difference.rbegin(), difference.rend()}));
   EXPECT_EQ(moments.pair_count(), n * (n + 1) / 2);
@@ -106,7 +106,7 @@ TEST(PoseMoments, a_pair_is_held_once) {
 TEST(PoseMoments, without_poses_there_is_no_distance) {
   test::Random random(4);
   const auto difference = random_difference(random);
-  PoseMoments moments(kSlots, Vec3d::Zero());
+  PoseMoments moments(kMomentSlots, Vec3d::Zero());
   moments.want(point_of(difference));
   EXPECT_EQ(moments.mean_square(difference), 0);
 }

@@ -15,9 +15,9 @@
 namespace sunder {
 namespace {
 
-using Influences = std::vector<Influence>;
+using QuantisedRow = std::vector<Influence>;
 
-double sum_of(const Influences& influences) {
+double sum_of(const QuantisedRow& influences) {
   double sum = 0;
   for (const Influence& influence : influences) sum += static_cast<double>(influence.weight);
   return sum;
@@ -25,8 +25,8 @@ double sum_of(const Influences& influences) {
 
 /// Weights over several orders of magnitude, in any order, some of them equal; they add up to
 /// `sum`, except for rounding.
-Influences random_influences(test::Random& random, std::uint32_t count, double sum) {
-  Influences influences;
+QuantisedRow random_influences(test::Random& random, std::uint32_t count, double sum) {
+  QuantisedRow influences;
   for (std::uint32_t i = 0; i < count; ++i) {
     const bool is_alike = i > 0 && random.index(5) == 0;
     const double weight = std::pow(10, random.uniform(-4, 0));
@@ -43,13 +43,13 @@ class Quantise : public testing::Test {
  protected:
   static constexpr std::uint32_t kUnits = std::numeric_limits<Integer>::max();
 
-  static std::vector<Integer> quantised(const Influences& influences) {
+  static std::vector<Integer> quantised(const QuantisedRow& influences) {
     std::vector<Integer> result(influences.size());
     EXPECT_TRUE(quantise_weights(influences, std::span<Integer>(result)));
     return result;
   }
 
-  static void expect_lawful(const Influences& influences) {
+  static void expect_lawful(const QuantisedRow& influences) {
     const std::vector<Integer> result = quantised(influences);
     EXPECT_EQ(std::accumulate(result.begin(), result.end(), std::uint64_t{0}), kUnits);
     const double sum = sum_of(influences);
@@ -81,7 +81,7 @@ TYPED_TEST(Quantise, the_sum_need_not_be_one) {
   test::Random random(22);
   for (const double sum : {1.0 + 1e-5, 0.5, 255.0, 1e-44, 1e-38, 1e30})
     for (const std::uint32_t count : {1u, 2u, 4u, 7u}) {
-      Influences influences = random_influences(random, count, sum);
+      QuantisedRow influences = random_influences(random, count, sum);
       influences[0].weight =
           std::max(influences[0].weight, std::numeric_limits<float>::denorm_min());
       this->expect_lawful(influences);
@@ -117,7 +117,7 @@ TYPED_TEST(Quantise, tiny_weights_become_zero) {
 TYPED_TEST(Quantise, more_influences_than_units) {
   test::Random random(23);
   this->expect_lawful(random_influences(random, 4096, 1));
-  const std::vector<TypeParam> equal = this->quantised(Influences(300, {0, 1.0f / 300}));
+  const std::vector<TypeParam> equal = this->quantised(QuantisedRow(300, {0, 1.0f / 300}));
   EXPECT_EQ(std::accumulate(equal.begin(), equal.end(), std::uint64_t{0}), this->kUnits);
   EXPECT_TRUE(std::is_sorted(equal.rbegin(), equal.rend()));
   EXPECT_LE(equal.front() - equal.back(), 1);
@@ -126,7 +126,7 @@ TYPED_TEST(Quantise, more_influences_than_units) {
 TYPED_TEST(Quantise, invalid_weights_are_refused_and_nothing_is_written) {
   const float nan = std::numeric_limits<float>::quiet_NaN(),
               infinity = std::numeric_limits<float>::infinity();
-  const auto expect_refused = [](const Influences& influences, std::size_t size) {
+  const auto expect_refused = [](const QuantisedRow& influences, std::size_t size) {
     const std::vector<TypeParam> before(size, 77);
     std::vector<TypeParam> after = before;
     EXPECT_FALSE(quantise_weights(influences, std::span<TypeParam>(after)));

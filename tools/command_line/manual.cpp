@@ -6,7 +6,7 @@ namespace sunder::tools {
 namespace {
 
 /// Text without meaning to roff, except that `code` becomes bold.
-std::string escaped(const std::string& text) {
+std::string escaped_for_roff(const std::string& text) {
   std::string result;
   bool is_code = false, is_line_begin = true;
   for (const char letter : text) {
@@ -35,7 +35,7 @@ std::string paragraphs(const std::string& text) {
     const bool is_indented = line.starts_with("  ");
     if (is_indented != is_literal) result += is_indented ? ".nf\n" : ".fi\n";
     is_literal = is_indented;
-    result += line.empty() ? ".PP\n" : escaped(line) + "\n";
+    result += line.empty() ? ".PP\n" : escaped_for_roff(line) + "\n";
   }
   return is_literal ? result + ".fi\n" : result;
 }
@@ -43,11 +43,13 @@ std::string paragraphs(const std::string& text) {
 std::string option_entry(const ListedOption& option) {
   std::string entry = ".TP\n";
   for (std::size_t i = 0; i < option.names.size(); ++i)
-    entry += (i > 0 ? ", \\fB" : "\\fB") + escaped(option.names[i]) + "\\fR";
+    entry += (i > 0 ? ", \\fB" : "\\fB") + escaped_for_roff(option.names[i]) + "\\fR";
   const bool is_positional = !option.names.front().starts_with('-');
-  if (!option.value.empty() && !is_positional) entry += " \\fI" + escaped(option.value) + "\\fR";
-  entry += '\n' + escaped(option.text);
-  if (!option.default_text.empty()) entry += " (default: " + escaped(option.default_text) + ")";
+  if (!option.value.empty() && !is_positional)
+    entry += " \\fI" + escaped_for_roff(option.value) + "\\fR";
+  entry += '\n' + escaped_for_roff(option.text);
+  if (!option.default_text.empty())
+    entry += " (default: " + escaped_for_roff(option.default_text) + ")";
   return entry + '\n';
 }
 
@@ -56,7 +58,8 @@ std::string verb_section(const ListedVerb& verb) {
   for (const ListedOption& positional : verb.positionals)
     usage += positional.is_required ? ' ' + positional.names.front()
                                     : " [" + positional.names.front() + ']';
-  std::string section = ".SS \"" + escaped(usage) + "\"\n" + escaped(verb.text) + ".\n";
+  std::string section =
+      ".SS \"" + escaped_for_roff(usage) + "\"\n" + escaped_for_roff(verb.text) + ".\n";
   for (const ListedOption& positional : verb.positionals) section += option_entry(positional);
   for (const ListedOption& option : verb.options) section += option_entry(option);
   return section + ".PP\n" + paragraphs(verb.footer);
@@ -66,7 +69,7 @@ std::string verb_section(const ListedVerb& verb) {
 
 std::string manual_page(const std::vector<ListedVerb>& verbs, const std::string& version) {
   const ListedVerb& command = verbs.front();
-  std::string page = ".TH SUNDER 1 \"\" \"" + escaped(version) +
+  std::string page = ".TH SUNDER 1 \"\" \"" + escaped_for_roff(version) +
                      "\" \"User Commands\"\n.SH NAME\nsunder \\- tears rigged, animated models\n"
                      ".SH SYNOPSIS\n.B sunder\n.I VERB\n[\\fIOPTIONS\\fR] ...\n.SH OPTIONS\n";
   for (const ListedOption& option : command.options) page += option_entry(option);

@@ -4,7 +4,7 @@ namespace sunder::tools {
 namespace {
 
 /// Text inside single quotes, without meaning to _arguments and _describe.
-std::string escaped(const std::string& text) {
+std::string escaped_for_zsh(const std::string& text) {
   std::string result;
   for (const char letter : text) {
     if (letter == '\'') {
@@ -19,18 +19,18 @@ std::string escaped(const std::string& text) {
 
 std::string value_spec(const ListedOption& option) {
   if (option.value.empty()) return {};
-  std::string spec = ":" + escaped(option.value) + ":";
+  std::string spec = ":" + escaped_for_zsh(option.value) + ":";
   if (!option.choices.empty()) {
     spec += '(';
     for (const std::string& choice : option.choices)
-      spec += (spec.back() == '(' ? "" : " ") + escaped(choice);
+      spec += (spec.back() == '(' ? "" : " ") + escaped_for_zsh(choice);
     return spec + ')';
   }
   return option.takes_path() ? spec + "_files" : spec + ' ';
 }
 
 std::string option_spec(const ListedOption& option) {
-  const std::string rest = "'[" + escaped(option.text) + ']' + value_spec(option) + "'";
+  const std::string rest = "'[" + escaped_for_zsh(option.text) + ']' + value_spec(option) + "'";
   if (option.names.size() == 1) return "'" + option.names.front() + rest.substr(1);
   std::string all, list;
   for (const std::string& name : option.names) {
@@ -48,7 +48,7 @@ std::string zsh_completions(const std::vector<ListedVerb>& verbs) {
     first += " \\\n      " + option_spec(option);
   for (std::size_t i = 1; i < verbs.size(); ++i) {
     const ListedVerb& verb = verbs[i];
-    names += "    '" + verb.name + ':' + escaped(verb.text) + "'\n";
+    names += "    '" + verb.name + ':' + escaped_for_zsh(verb.text) + "'\n";
     branches += "    " + verb.name + ")\n      _arguments";
     for (const ListedOption& option : verb.options)
       branches += " \\\n        " + option_spec(option);

@@ -18,7 +18,7 @@ namespace sunder::tools {
 namespace {
 
 constexpr PictureSize kStill, kMotion = {480, 360};
-constexpr double kFrame = 0.08;  ///< Seconds per picture of the motion.
+constexpr double kDemoFrame = 0.08;  ///< Seconds per picture of the motion.
 constexpr int kFramesBefore = 6, kFramesOfTear = 6, kFrames = 32;
 constexpr double kCloseness = 0.35;   ///< Of the pictures of the tear, as aim() has it.
 constexpr double kSameEnds = 0.02;    ///< A clip whose ends differ less, by the diagonal, runs on.
@@ -74,7 +74,7 @@ class Motion {
   [[nodiscard]] PoseSpec pose(int frame) const {
     if (character_.clips.empty()) return RestPose{};
     const auto duration = static_cast<double>(character_.clips[0].duration);
-    double time = kTearFraction * duration + (frame - kFramesBefore) * kFrame;
+    double time = kTearFraction * duration + (frame - kFramesBefore) * kDemoFrame;
     if (runs_on_ && duration > 0) time -= duration * std::floor(time / duration);
     return ClipPose{std::uint32_t{0}, std::clamp(time, 0.0, duration)};
   }
@@ -114,7 +114,7 @@ Status draw_motion(const DemoTear& tear, const ModelLooks& looks, const std::fil
   std::size_t next = 0;
   for (int frame = 0; frame < kFrames; ++frame) {
     progress.begin_step(first_step++, "drawing motion");
-    if (const Status status = actor.play(motion->pose(frame), kFrame); !status) return status;
+    if (const Status status = actor.play(motion->pose(frame), kDemoFrame); !status) return status;
     if (const Status status = tear_in_motion(frame, actor, next); !status) return status;
     if (const Status status = actor.play(motion->pose(frame), 0); !status) return status;
     const Result<TornActor::Posture> posture = actor.posture();
@@ -123,7 +123,7 @@ Status draw_motion(const DemoTear& tear, const ModelLooks& looks, const std::fil
     add_floor(places, scene);
     pictures.push_back(trace(scene, camera, kMotion));
   }
-  return write_animated_png(png, pictures, static_cast<int>(1000 * kFrame));
+  return write_animated_png(png, pictures, static_cast<int>(1000 * kDemoFrame));
 }
 
 /// One picture of the torn model, and one of the same moment before the tear if that is wanted.

@@ -29,7 +29,7 @@ int decimals_for(const Json& bounds) {
   return diagonal > 0 ? std::clamp(static_cast<int>(std::ceil(4 - std::log10(diagonal))), 0, 9) : 4;
 }
 
-std::string number(const Json& value, int decimals) {
+std::string rounded_number(const Json& value, int decimals) {
   std::array<char, 64> text{};
   double shown = value.get<double>();
   if (std::abs(shown) < 0.5 * std::pow(10.0, -decimals)) shown = 0;  // Not "-0.000".
@@ -44,32 +44,33 @@ std::string indentation(std::size_t depth) {
   return depth <= kMostLevels ? spaces : spaces + "+" + std::to_string(depth - kMostLevels) + " ";
 }
 
-using Row = std::vector<std::string>;
+using TableRow = std::vector<std::string>;
 
 constexpr std::array<const char*, 10> kHeads = {
     "bone", "vertices", "x", "y", "z", "length", "leads to", "x of its surface", "y", "z"};
 
-Row row_of(const Json& bone, const Json& bones, std::size_t depth, int decimals) {
-  Row row = {indentation(depth) + visible(bone["name"].get<std::string>()),
-             std::to_string(bone["vertices"].get<std::size_t>())};
-  for (const Json& value : bone["joint"]) row.push_back(number(value, decimals));
-  row.push_back(number(bone["length"], decimals));
+TableRow row_of(const Json& bone, const Json& bones, std::size_t depth, int decimals) {
+  TableRow row = {indentation(depth) + visible(bone["name"].get<std::string>()),
+                  std::to_string(bone["vertices"].get<std::size_t>())};
+  for (const Json& value : bone["joint"]) row.push_back(rounded_number(value, decimals));
+  row.push_back(rounded_number(bone["length"], decimals));
   row.push_back(
       bone["leads_to"].is_null()
           ? "-"
           : visible(bones[bone["leads_to"].get<std::size_t>()]["name"].get<std::string>()));
   for (std::size_t i = 0; i < 3; ++i)
-    row.push_back(bone["bounds"].is_null() ? "-"
-                                           : number(bone["bounds"]["min"][i], decimals) + " .. " +
-                                                 number(bone["bounds"]["max"][i], decimals));
+    row.push_back(bone["bounds"].is_null()
+                      ? "-"
+                      : rounded_number(bone["bounds"]["min"][i], decimals) + " .. " +
+                            rounded_number(bone["bounds"]["max"][i], decimals));
   return row;
 }
 
-void add_aligned(const std::vector<Row>& rows, Lines& lines) {
+void add_aligned(const std::vector<TableRow>& rows, Lines& lines) {
   std::vector<std::size_t> widths(kHeads.size(), 0);
-  for (const Row& row : rows)
+  for (const TableRow& row : rows)
     for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], width_of(row[i]));
-  for (const Row& row : rows) {
+  for (const TableRow& row : rows) {
     std::string line;
     for (std::size_t i = 0; i < row.size(); ++i) {
       const bool is_name = i == 0 || i == 6;
@@ -117,7 +118,7 @@ Lines bone_tree_text(const Json& info) {
       children[bones[i]["parent"].get<std::size_t>()].push_back(i);
   }
   std::vector<std::size_t> depth(bones.size(), 0);
-  std::vector<Row> rows = {Row(kHeads.begin(), kHeads.end())};
+  std::vector<TableRow> rows = {TableRow(kHeads.begin(), kHeads.end())};
   while (!open.empty()) {
     const std::size_t bone = open.back();
     open.pop_back();

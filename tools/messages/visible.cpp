@@ -8,13 +8,13 @@ namespace sunder::tools {
 namespace {
 
 /// A character of UTF-8. Bytes that are none have no code.
-struct Character {
+struct CodePoint {
   std::size_t bytes = 1;
   char32_t code = 0;
   bool is_valid = false;
 };
 
-Character character_at(std::string_view text, std::size_t place) {
+CodePoint character_at(std::string_view text, std::size_t place) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[place + i]); };
   const unsigned first = byte(0);
   if (first < 0x80) return {1, first, true};
@@ -87,7 +87,7 @@ std::string visible(std::string_view text) {
   std::string shown;
   shown.reserve(text.size());
   for (std::size_t i = 0; i < text.size();) {
-    const Character character = character_at(text, i);
+    const CodePoint character = character_at(text, i);
     if (!character.is_valid)
       shown += numbered("\\x%02x", static_cast<unsigned char>(text[i]));
     else if (is_unseen(character.code))
@@ -113,7 +113,7 @@ std::string visible_json(std::string json) {
   std::string shown;
   bool is_same = true;
   for (std::size_t i = 0; i < json.size();) {
-    const Character character = character_at(json, i);
+    const CodePoint character = character_at(json, i);
     const std::string_view as_it_is = std::string_view(json).substr(i, character.bytes);
     i += character.bytes;
     // Outside of strings there are no characters beyond ASCII, and no controls but line breaks.

@@ -6,7 +6,7 @@
 namespace sunder::tools {
 namespace {
 
-constexpr std::size_t kMostPoses = 16, kMostTriangles = 1'000'000;
+constexpr std::size_t kMostSourcePoses = 16, kMostTriangles = 1'000'000;
 
 bool is_same(const ModelPose& a, const ModelPose& b) {
   return a.morph_weights == b.morph_weights &&
@@ -28,7 +28,7 @@ Result<const PosedSurface*> PosedSource::in(const ModelPose& pose) {
   if (!surface) return surface.error();
   kept_.push_front({pose, std::move(*surface)});
   const std::size_t triangles = std::max<std::size_t>(1, kept_.front().surface.triangles.size());
-  if (kept_.size() > std::clamp<std::size_t>(kMostTriangles / triangles, 1, kMostPoses))
+  if (kept_.size() > std::clamp<std::size_t>(kMostTriangles / triangles, 1, kMostSourcePoses))
     kept_.pop_back();
   return &kept_.front().surface;
 }

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-Bounds bounds_of(const Corners& corners) {
+Bounds box_of(const Corners& corners) {
   Bounds bounds;
   for (const Vec3d& corner : corners) {
     bounds.least = bounds.least.cwiseMin(corner);
@@ -83,12 +83,12 @@ bool pierces(const Corners& edges_of, const Corners& triangle) {
 /// The distance between a shape and one run of a surface, if that is below `least`.
 double distance_within(const PosedSurface& surface, std::size_t run, const Corners& part,
                        double least) {
-  const Bounds box = bounds_of(part);
+  const Bounds box = box_of(part);
   const std::size_t begin = run * PosedSurface::kRun,
                     end = std::min(begin + PosedSurface::kRun, surface.triangles.size());
   for (std::size_t i = begin; i < end; ++i) {
     const Corners& triangle = surface.triangles[i];
-    if (distance_between(box, bounds_of(triangle)) < least)
+    if (distance_between(box, box_of(triangle)) < least)
       least = std::min(least, tools::distance_between(part, triangle));
   }
   return least;
@@ -116,7 +116,7 @@ Result<PosedSurface> pose_surface(const Character& character, const ModelPose& p
       for (std::size_t i = 0; i < 3; ++i) corners[i] = positions[triangle[i]].cast<double>();
       if (surface.triangles.size() % PosedSurface::kRun == 0) surface.run_bounds.emplace_back();
       surface.triangles.push_back(corners);
-      extend(surface.run_bounds.back(), bounds_of(corners));
+      extend(surface.run_bounds.back(), box_of(corners));
     }
   }
   for (const Bounds& bounds : surface.run_bounds) extend(surface.bounds, bounds);
@@ -139,7 +139,7 @@ double distance_between(const PosedSurface& surface, std::span<const Corners> sh
   double least = kInfinite;
   std::vector<std::pair<double, std::size_t>> runs;  // by lower bounds of their distances
   for (const Corners& part : shape) {
-    const Bounds box = bounds_of(part);
+    const Bounds box = box_of(part);
     runs.clear();
     for (std::size_t i = 0; i < surface.run_bounds.size(); ++i) {
       const double bound = distance_between(box, surface.run_bounds[i]);

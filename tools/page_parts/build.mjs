@@ -66,11 +66,11 @@ writeFileSync(cppFile, `#include "tools/page_parts/page_template.h"
 
 namespace sunder::tools {
 namespace {
-constexpr std::string_view kPieces[] = {
+constexpr std::string_view ${functionName}_pieces[] = {
 ${literals(html)}};
 }  // namespace
 
-PageTemplate ${functionName}() { return kPieces; }
+PageTemplate ${functionName}() { return ${functionName}_pieces; }
 
 }  // namespace sunder::tools
 `);

@@ -11,7 +11,7 @@ namespace sunder::tools {
 namespace {
 
 /// The vertices of all meshes, back to back.
-struct Surface {
+struct ModelSurface {
   std::vector<float> positions;                ///< 3 V, bind space.
   std::vector<std::int16_t> normals;           ///< 3 V, normalised; zeros: the page makes its own.
   std::vector<std::uint32_t> indices;          ///< 3 per triangle.
@@ -20,7 +20,7 @@ struct Surface {
   std::vector<float> influence_weights;
 };
 
-void append_vertices(const Mesh& mesh, Surface& surface) {
+void append_vertices(const Mesh& mesh, ModelSurface& surface) {
   for (const Vec3f& position : mesh.positions)
     surface.positions.insert(surface.positions.end(), position.data(), position.data() + 3);
   const float unit = std::numeric_limits<std::int16_t>::max();
@@ -32,13 +32,13 @@ void append_vertices(const Mesh& mesh, Surface& surface) {
     }
 }
 
-void append_triangles(const Mesh& mesh, Index first_vertex, Surface& surface) {
+void append_triangles(const Mesh& mesh, Index first_vertex, ModelSurface& surface) {
   for (const Triangle& triangle : mesh.triangles)
     if (!is_retired(triangle))
       for (const Index vertex : triangle) surface.indices.push_back(first_vertex + vertex);
 }
 
-Status append_influences(const Mesh& mesh, Index first_slot, Surface& surface) {
+Status append_influences(const Mesh& mesh, Index first_slot, ModelSurface& surface) {
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     const auto influences = mesh.weights.of(v);
     if (influences.size() > std::numeric_limits<std::uint8_t>::max())
@@ -147,7 +147,7 @@ Result<Json> model_section(const Character& character, const std::string& title,
   if (slots > std::numeric_limits<std::uint16_t>::max())
     return Status::failure(StatusCode::limit_exceeded, kNone,
                            "the page shows at most 65535 slots of skins, these are %zu", slots);
-  Surface surface;
+  ModelSurface surface;
   Json meshes = Json::array(), morphs = Json::array();
   for (const Mesh& mesh : character.meshes) {
     const auto first_vertex = static_cast<Index>(surface.influence_counts.size());

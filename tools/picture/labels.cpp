@@ -60,9 +60,9 @@ constexpr std::string_view kUnknown = "0040460600";
 constexpr double kUnit = 1.75;                     ///< Pixels per step of the grid.
 constexpr double kAdvance = 6.0;                   ///< Steps from one sign to the next.
 constexpr double kHeight = 6.0;                    ///< Steps.
-constexpr double kLine = 1.8;                      ///< Width of a line, pixels.
+constexpr double kLabelLine = 1.8;                 ///< Width of a line, pixels.
 constexpr double kPadding = 3.0, kDistance = 7.0;  ///< Pixels.
-const Vec4f kGround(0.93f, 0.94f, 0.95f, 1.0f);
+const Vec4f kLabelGround(0.93f, 0.94f, 0.95f, 1.0f);
 
 std::string_view lines_of(char sign) {
   const char wanted = static_cast<char>(std::toupper(static_cast<unsigned char>(sign)));
@@ -83,7 +83,7 @@ void draw_sign(Marks& marks, char sign, const Vec2d& corner, const Vec4f& color)
       i += 3;
       continue;
     }
-    marks.line(at(i), at(i + 2), kLine, color);
+    marks.line(at(i), at(i + 2), kLabelLine, color);
     i += 2;
   }
 }
@@ -114,7 +114,7 @@ bool Labels::place_beside(const Vec2d& pixel, const std::string& text, const Vec
                             {box.greatest.x(), box.least.y()},
                             box.greatest,
                             {box.least.x(), box.greatest.y()}};
-    marks_.polygon(ground, kGround);
+    marks_.polygon(ground, kLabelGround);
     Vec2d pen(box.least.x() + padding, box.greatest.y() - padding);
     for (const char sign : text) {
       if ((static_cast<unsigned char>(sign) >> 6) == 2) continue;

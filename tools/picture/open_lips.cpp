@@ -22,7 +22,7 @@ constexpr double kLess = 0.75, kFolded = 0.004;
 constexpr double kFirstTension = 1.0;  ///< Newtons per metre, to begin the search with.
 constexpr double kTaper = 0.4;         ///< Of a wound's length, at each end.
 constexpr int kMostTrials = 6;
-constexpr int kMostSteps = 180;
+constexpr int kMostLipSteps = 180;
 constexpr std::size_t kMostRays = 200;
 
 struct TornSource {
@@ -199,7 +199,7 @@ Wound wound_of(std::span<const ChangeRecord> changes) {
 }
 
 Status open_lips(CharacterInstance& instance, const ModelPose& pose) {
-  for (int i = 0; i < kMostSteps; ++i) {
+  for (int i = 0; i < kMostLipSteps; ++i) {
     if (const Status status = instance.advance(pose, kPictureStep); !status) return status;
     if (instance.body()->awake_count() == 0) break;
   }

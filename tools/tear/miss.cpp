@@ -18,7 +18,7 @@ namespace {
 
 /// The posed faces that all attempts together may test: about three seconds.
 constexpr std::size_t kMostPosedFaces = 8'000'000;
-constexpr std::size_t kMostPoses = 32;
+constexpr std::size_t kMostMissedPoses = 32;
 constexpr std::size_t kTimesPerClip = 8;
 
 /// A unit other than metres: factors that turn a number into metres, or metres into the unit.
@@ -135,7 +135,7 @@ std::vector<OtherPose> other_poses(const PoseSpec& own, const Character& charact
                            : std::get<std::uint32_t>(clip_pose->clip) == i;
   };
   for (const bool wanted : {true, false})
-    for (std::uint32_t i = 0; i < character.clips.size() && poses.size() < kMostPoses; ++i)
+    for (std::uint32_t i = 0; i < character.clips.size() && poses.size() < kMostMissedPoses; ++i)
       if (is_own(i) == wanted) add_times(character.clips[i], i, poses);
   return poses;
 }

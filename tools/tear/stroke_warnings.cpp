@@ -11,7 +11,7 @@
 namespace sunder::tools {
 namespace {
 
-const Clip* clip_of(const ClipPose& pose, const Character& character) {
+const Clip* playing_clip(const ClipPose& pose, const Character& character) {
   if (const auto* const index = std::get_if<std::uint32_t>(&pose.clip))
     return *index < character.clips.size() ? &character.clips[*index] : nullptr;
   const auto found =
@@ -59,7 +59,7 @@ std::vector<std::string> time_warnings(const Operation& operation, const Charact
   std::vector<std::string> warnings;
   for (const PoseSpec& spec : pose_specs_of(operation)) {
     const auto* const pose = std::get_if<ClipPose>(&spec);
-    const Clip* const clip = pose != nullptr ? clip_of(*pose, character) : nullptr;
+    const Clip* const clip = pose != nullptr ? playing_clip(*pose, character) : nullptr;
     if (clip == nullptr) continue;
     const double duration = static_cast<double>(clip->duration);
     if (pose->time > duration * (1 + 1e-6))

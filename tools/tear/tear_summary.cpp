@@ -9,7 +9,7 @@
 namespace sunder::tools {
 namespace {
 
-std::uint64_t vertex_count(const Character& character) {
+std::uint64_t vertices_of(const Character& character) {
   std::uint64_t count = 0;
   for (const Mesh& mesh : character.meshes) count += mesh.vertex_count();
   return count;
@@ -25,8 +25,7 @@ std::string operations_line(const TearRun& run) {
 }
 
 std::string surface_line(const TearRun& run) {
-  const std::uint64_t added =
-      vertex_count(run.model.character()) - vertex_count(run.model.source());
+  const std::uint64_t added = vertices_of(run.model.character()) - vertices_of(run.model.source());
   return printed(
       "surface     %llu faces crossed, %llu vertices added, %zu pieces; %u components, "
       "%u boundary loops",

@@ -10,7 +10,7 @@
 namespace sunder::tools {
 namespace {
 
-constexpr std::uint32_t kMostTriangles = 300;
+constexpr std::uint32_t kMostNearTriangles = 300;
 
 /// The sums from which a place is made.
 struct Sums {
@@ -53,7 +53,7 @@ std::optional<TornPlace> torn_place(const TornModel& model, const TriangleCounts
     palette.resize(skin.bones.size());
     if (!compute_palette(skin, pose, palette)) return {};
     const std::uint32_t of_source = model.source().meshes[m].triangle_count();
-    const std::uint32_t step = 1 + (mesh.triangle_count() - before[m]) / kMostTriangles;
+    const std::uint32_t step = 1 + (mesh.triangle_count() - before[m]) / kMostNearTriangles;
     for (std::uint32_t t = before[m]; t < mesh.triangle_count(); t += step)
       if (!is_retired(mesh.triangles[t]) && model.source_triangle(m, t) < of_source)
         add_triangle(mesh, skin, mesh.triangles[t], palette, pose, sums);

@@ -12,7 +12,7 @@
 namespace sunder::tools {
 namespace {
 
-constexpr std::uint32_t kTimesPerClip = 240;
+constexpr std::uint32_t kPairTimesPerClip = 240;
 
 /// Notes about weights: what the file stores is judged itself.
 bool is_about_weights(const LoadNote& note) {
@@ -120,7 +120,7 @@ std::optional<ValidatedPair> validate_pair(
   options.stored_source = source->stored;
   options.stored_target = target->stored;
   options.profile = pair.profile;
-  if (pair.over_time) options.times_per_clip = kTimesPerClip;
+  if (pair.over_time) options.times_per_clip = kPairTimesPerClip;
   options.progress = progress;
   std::vector<Operation> operations;
   if (!read_options(pair, source->character, operations, options, budget, failure)) return {};

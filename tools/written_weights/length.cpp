@@ -7,7 +7,7 @@
 namespace sunder::tools {
 namespace {
 
-constexpr std::pair<std::string_view, double> kUnits[] = {
+constexpr std::pair<std::string_view, double> kLengthUnits[] = {
     {"", 1.0}, {"m", 1.0}, {"cm", 1e-2}, {"mm", 1e-3}, {"um", 1e-6}};
 
 }  // namespace
@@ -19,7 +19,7 @@ std::optional<double> parse_length(std::string_view text) {
   if (error != std::errc() || !std::isfinite(number) || std::signbit(number)) return {};
   std::string_view unit(rest, static_cast<std::size_t>(end - rest));
   if (unit.starts_with(' ')) unit.remove_prefix(1);
-  for (const auto& [name, metres] : kUnits)
+  for (const auto& [name, metres] : kLengthUnits)
     if (unit == name) return number * metres;
   return {};
 }

@@ -182,7 +182,7 @@ double FaceAttributes::difference(FaceAttribute attribute, Index mesh, Index ver
   if (attribute != FaceAttribute::uv || corner_of(match) < 3) return least;
   reader_.actual(mesh, vertex, actual_);
   reader_.expected(match, match.barycentric, expected_);
-  return distance_of(actual_, expected_) <= kSameWeights ? least : 0.0;
+  return distance(actual_, expected_) <= kSameWeights ? least : 0.0;
 }
 
 }  // namespace sunder::validation

@@ -48,7 +48,7 @@ Places take_inherited_weights(const RowReader& reader, Places& of_target) {
     if (!match.is_accepted) return false;
     reader.actual(place.mesh, place.vertex, actual);
     reader.expected(match, match.barycentric, expected);
-    double difference = distance_of(actual, expected);
+    double difference = distance(actual, expected);
     if (place.bone != kNone) {
       const Index bone = reader.bones().source_of_target[place.bone];
       if (bone == kNone) return false;

@@ -50,7 +50,7 @@ void compare_influences(const RowReader& reader, PaperFigures& figures) {
       ++vertices;
       reader.actual(mesh, v, actual);
       reader.expected(match, match.barycentric, expected);
-      l1 += distance_of(actual, expected);
+      l1 += distance(actual, expected);
       for (const auto& [bone, weight] : actual) {
         of_target += weight > kInfluence;
         common += weight > kInfluence && weight_of(expected, bone) > kInfluence;

@@ -8,7 +8,7 @@
 namespace sunder::validation {
 namespace {
 
-constexpr double kDiffers = 0.02;  ///< L1; below, rounding to bytes explains it.
+constexpr double kRowDiffers = 0.02;  ///< L1; below, rounding to bytes explains it.
 
 /// How near weights have to be to a mistaken row to count as made by that mistake.
 double tolerance_of(const Skinned& target, Index mesh) {
@@ -28,7 +28,7 @@ bool is_copied(const RowReader& reader, const SurfaceMatch& match, double tolera
     std::array<double, 3> corner = {0, 0, 0};
     corner[k] = 1;
     reader.expected(match, corner, s.mistaken);
-    if (distance_of(s.actual, s.mistaken) <= tolerance) return true;
+    if (distance(s.actual, s.mistaken) <= tolerance) return true;
   }
   return false;
 }
@@ -41,7 +41,7 @@ bool is_swapped(const RowReader& reader, const SurfaceMatch& match, double toler
     std::array<double, 3> exchanged = match.barycentric;
     std::swap(exchanged[a], exchanged[b]);
     reader.expected(match, exchanged, s.mistaken);
-    if (distance_of(s.actual, s.mistaken) <= tolerance) return true;
+    if (distance(s.actual, s.mistaken) <= tolerance) return true;
   }
   return false;
 }
@@ -109,7 +109,7 @@ void check_rows(const RowReader& reader, std::span<const DifferentRow> rows,
   Places copied, swapped, first_kept;
   Scratch s;
   for (const DifferentRow& row : rows) {
-    if (row.l1 <= kDiffers) continue;
+    if (row.l1 <= kRowDiffers) continue;
     const SurfaceMatch& match = reader.match(row.mesh, row.vertex);
     reader.actual(row.mesh, row.vertex, s.actual);
     reader.expected(match, match.barycentric, s.expected);

@@ -173,16 +173,16 @@ Places find_across_tears(const RowReader& reader) {
     if (!match.is_accepted) continue;
     reader.actual(mesh, own, actual);
     reader.expected(match, match.barycentric, expected);
-    const double l1 = distance_of(actual, expected);
+    const double l1 = distance(actual, expected);
     if (l1 <= kind_of(Code::across_tear).threshold) continue;
     table.find(target.surface.positions[v], [&](Index other) {
       if (source.surface.tear_side[other] == target.surface.tear_side[v]) return false;
       const Index of = source.surface.mesh_of_vertex(other);
       other_row.clear();
       for (const Influence& in : source.influences(of, other - source.surface.first_vertex[of]))
-        other_row.emplace_back(source.bone(of, in.slot), static_cast<double>(in.weight));
-      std::ranges::sort(other_row);
-      const bool is_across = distance_of(actual, other_row) < 0.5 * l1;
+        other_row.push_back({source.bone(of, in.slot), static_cast<double>(in.weight)});
+      std::ranges::sort(other_row, {}, &BoneWeight::bone);
+      const bool is_across = distance(actual, other_row) < 0.5 * l1;
       if (is_across) places.push_back(target.place(mesh, own, kNone, l1));
       return is_across;
     });

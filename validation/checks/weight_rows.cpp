@@ -1,7 +1,6 @@
 #include "validation/checks/weight_rows.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace sunder::validation {
 namespace {
@@ -10,34 +9,22 @@ constexpr double kRounding = 1e-6;
 constexpr double kCorner = 1 - 1e-5;
 
 void add(WeightRow& row, Index bone, double weight) {
-  const auto at = std::lower_bound(row.begin(), row.end(), bone,
-                                   [](const auto& entry, Index of) { return entry.first < of; });
-  if (at != row.end() && at->first == bone)
-    at->second += weight;
+  const auto at =
+      std::lower_bound(row.begin(), row.end(), bone,
+                       [](const BoneWeight& entry, Index of) { return entry.bone < of; });
+  if (at != row.end() && at->bone == bone)
+    at->weight += weight;
   else
     row.insert(at, {bone, weight});
 }
 
 }  // namespace
 
-double distance_of(const WeightRow& a, const WeightRow& b) {
-  double sum = 0.0;
-  std::size_t i = 0, j = 0;
-  while (i < a.size() || j < b.size()) {
-    if (j == b.size() || (i < a.size() && a[i].first < b[j].first))
-      sum += std::abs(a[i++].second);
-    else if (i == a.size() || b[j].first < a[i].first)
-      sum += std::abs(b[j++].second);
-    else
-      sum += std::abs(a[i++].second - b[j++].second);
-  }
-  return sum;
-}
-
 double weight_of(const WeightRow& row, Index bone) {
-  const auto at = std::lower_bound(row.begin(), row.end(), bone,
-                                   [](const auto& entry, Index of) { return entry.first < of; });
-  return at != row.end() && at->first == bone ? at->second : 0.0;
+  const auto at =
+      std::lower_bound(row.begin(), row.end(), bone,
+                       [](const BoneWeight& entry, Index of) { return entry.bone < of; });
+  return at != row.end() && at->bone == bone ? at->weight : 0.0;
 }
 
 std::size_t corner_of(const SurfaceMatch& match) {
@@ -109,7 +96,7 @@ std::vector<DifferentRow> find_different_rows(const RowReader& reader) {
       if (!match.is_accepted || reader.is_same(mesh, v)) continue;
       reader.actual(mesh, v, actual);
       reader.expected(match, match.barycentric, expected);
-      const double l1 = distance_of(actual, expected);
+      const double l1 = distance(actual, expected);
       if (l1 > kRounding) rows.push_back({mesh, v, l1});
     }
   return rows;

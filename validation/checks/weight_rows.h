@@ -1,19 +1,14 @@
 #pragma once
 
-#include <utility>
 #include <vector>
 
 #include "validation/checks/skinned.h"
 #include "validation/match/bone_match.h"
 #include "validation/match/surface_match.h"
+#include "validation/weight_row.h"
 
 namespace sunder::validation {
 
-/// Weights by bone of the source, ascending by bone, none twice.
-using WeightRow = std::vector<std::pair<Index, double>>;
-
-/// Sum of |a - b| over all bones.
-[[nodiscard]] double distance_of(const WeightRow& a, const WeightRow& b);
 [[nodiscard]] double weight_of(const WeightRow& row, Index bone);
 
 /// Weights of the target beside those that its match on the source has. Everything in bones of the

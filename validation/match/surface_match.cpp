@@ -17,10 +17,10 @@
 namespace sunder::validation {
 namespace {
 
-constexpr double kTie = 2e-7;           ///< Of the diagonal: equally close, for float positions.
-constexpr double kOnSurface = 1e-6;     ///< Of the diagonal: what float positions may be off.
-constexpr double kRoughlyAgrees = 0.5;  ///< Cosine.
-constexpr double kSameCosine = 0.05;    ///< Normals that agree equally well.
+constexpr double kTie = 2e-7;             ///< Of the diagonal: equally close, for float positions.
+constexpr double kMatchOnSurface = 1e-6;  ///< Of the diagonal: what float positions may be off.
+constexpr double kRoughlyAgrees = 0.5;    ///< Cosine.
+constexpr double kSameCosine = 0.05;      ///< Normals that agree equally well.
 
 /// A place that competes to be the match of a vertex.
 struct Candidate {
@@ -229,7 +229,7 @@ SurfaceMatch SurfaceSearch::closest(const BindSurface& of, Index vertex,
   match.distance = best.distance;
   match.cosine = best.cosine;
   const bool is_near = best.distance <= limits.distance && best.cosine >= limits.cosine;
-  const bool is_on_surface = best.distance <= kOnSurface * surface.diagonal &&
+  const bool is_on_surface = best.distance <= kMatchOnSurface * surface.diagonal &&
                              (is_vertex || best.cosine >= kRoughlyAgrees);
   match.is_accepted = is_near || is_on_surface;
   return match;

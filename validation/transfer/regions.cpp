@@ -66,15 +66,15 @@ std::vector<Index> choose_parts(const BindSurface& source, const MatchRegions& r
 
 }  // namespace
 
-int MirrorPlane::side_of(const Vec3d& position, double band) const {
+int SidePlane::side_of(const Vec3d& position, double band) const {
   const double height = dot(normal, position - point);
   return height > band ? 1 : height < -band ? -1 : 0;
 }
 
-std::optional<MirrorPlane> find_mirror_plane(const Character& character) {
+std::optional<SidePlane> find_side_plane(const Character& character) {
   const ModelPose bind = or_throw(bind_pose(character));
   const std::vector<Index> mirrored = mirrored_bones(character.skeleton);
-  MirrorPlane plane;
+  SidePlane plane;
   double count = 0;
   for (Index left = 0; left < mirrored.size(); ++left) {
     if (mirrored[left] == kNone || side_of_name(character.skeleton.bones[left].name) > 0) continue;

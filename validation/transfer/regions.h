@@ -9,7 +9,7 @@
 namespace sunder::validation {
 
 /// The plane in which left and right bones mirror each other.
-struct MirrorPlane {
+struct SidePlane {
   Vec3d point = Vec3d::Zero();
   Vec3d normal = Vec3d::Zero();  ///< Unit, towards the right.
 
@@ -19,7 +19,7 @@ struct MirrorPlane {
 
 /// The plane between the bones at bind whose names differ in their side alone. nullopt without such
 /// bones.
-[[nodiscard]] std::optional<MirrorPlane> find_mirror_plane(const Character& character);
+[[nodiscard]] std::optional<SidePlane> find_side_plane(const Character& character);
 
 /// The places of a source where the vertices of a target may be matched.
 struct MatchRegions {

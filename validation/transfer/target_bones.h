@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "validation/match/bone_match.h"
-#include "validation/transfer/weight_row.h"
+#include "validation/weight_row.h"
 
 namespace sunder::validation {
 

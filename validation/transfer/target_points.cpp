@@ -8,7 +8,7 @@
 namespace sunder::validation {
 namespace {
 
-constexpr double kSameWeights = 1e-6;
+constexpr double kSameTargetWeights = 1e-6;
 
 /// Splits the points of the weld where accepted matches disagree. @return the number of points.
 Index part_points(const BindSurface& target, std::span<const SurfaceMatch> matches,
@@ -23,7 +23,7 @@ Index part_points(const BindSurface& target, std::span<const SurfaceMatch> match
     auto& known = representatives[target.weld.point_of_vertex[v]];
     auto& numbers = points[target.weld.point_of_vertex[v]];
     std::size_t i = 0;
-    while (i < known.size() && distance(rows[known[i]], rows[v]) > kSameWeights) ++i;
+    while (i < known.size() && distance(rows[known[i]], rows[v]) > kSameTargetWeights) ++i;
     if (i == known.size()) {
       known.push_back(v);
       numbers.push_back(count++);

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "validation/match/surface_match.h"
-#include "validation/transfer/weight_row.h"
+#include "validation/weight_row.h"
 
 namespace sunder::validation {
 

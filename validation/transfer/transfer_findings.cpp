@@ -6,7 +6,7 @@
 namespace sunder::validation {
 namespace {
 
-constexpr std::size_t kMostPlaces = 64;
+constexpr std::size_t kMostTransferPlaces = 64;
 constexpr double kFewMatches = 0.5;
 constexpr double kManyClamped = 0.05;
 
@@ -30,7 +30,7 @@ void find_parts_without_match(const TransferFacts& facts, TransferResult& result
     const Index part = facts.parts.of[facts.points.point_of_vertex[v]];
     if (facts.part_has_match[part]) continue;
     ++finding.count;
-    if (is_listed[part] || finding.places.size() == kMostPlaces) continue;
+    if (is_listed[part] || finding.places.size() == kMostTransferPlaces) continue;
     is_listed[part] = true;
     const Index mesh = facts.surface.mesh_of_vertex(v);
     finding.places.push_back(
@@ -75,7 +75,7 @@ void find_lost_bones(const TransferFacts& facts, TransferResult& result) {
   for (std::size_t i = 0; i < std::min<std::size_t>(lost.size(), 8); ++i)
     finding.text += (i == 0 ? " '" : ", '") + facts.source.skeleton.bones[lost[i]].name + "'";
   if (lost.size() > 8) finding.text += ", …";
-  for (std::size_t i = 0; i < std::min(lost.size(), kMostPlaces); ++i)
+  for (std::size_t i = 0; i < std::min(lost.size(), kMostTransferPlaces); ++i)
     finding.places.push_back({kNone, kNone, facts.bones.of_source[lost[i]], Vec3d::Zero(), 0});
   result.findings.push_back(std::move(finding));
 }

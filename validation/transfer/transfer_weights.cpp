@@ -123,7 +123,7 @@ class Transfer {
   BindSurface from_, to_;
   std::vector<bool> is_chosen_;  ///< Per bone of the source.
   MatchLimits limits_;
-  std::optional<MirrorPlane> plane_;
+  std::optional<SidePlane> plane_;
   std::vector<int> side_of_bone_;  ///< Per bone of the result.
 
   SurfaceMatches matches_;
@@ -142,7 +142,7 @@ class Transfer {
 Status Transfer::choose_sides() {
   side_of_bone_.assign(bones_.skeleton.bones.size(), 0);
   if (!options_.keep_sides_apart) return {};
-  plane_ = find_mirror_plane(source_);
+  plane_ = find_side_plane(source_);
   if (!plane_)
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "keep_sides_apart: the source has no pair of bones named left and "

@@ -14,10 +14,10 @@ constexpr double kRounding = 1e-6;
 /// The fraction of the largest coordinate within which a corner counts as in the plane.
 constexpr double kInPlane = 1e-6;
 
-using Polygon = std::vector<Vec3d>;
+using SidePolygon = std::vector<Vec3d>;
 
-Polygon clip(const Polygon& polygon, const Vec3d& point, const Vec3d& normal) {
-  Polygon kept;
+SidePolygon clip(const SidePolygon& polygon, const Vec3d& point, const Vec3d& normal) {
+  SidePolygon kept;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Vec3d &from = polygon[i], &to = polygon[(i + 1) % polygon.size()];
     const double at_from = normal.dot(from - point), at_to = normal.dot(to - point);
@@ -28,7 +28,7 @@ Polygon clip(const Polygon& polygon, const Vec3d& point, const Vec3d& normal) {
   return kept;
 }
 
-Vec3d doubled_area(const Polygon& polygon) {
+Vec3d doubled_area(const SidePolygon& polygon) {
   Vec3d sum = Vec3d::Zero();
   for (std::size_t i = 2; i < polygon.size(); ++i)
     sum += (polygon[i - 1] - polygon[0]).cross(polygon[i] - polygon[0]);
@@ -36,7 +36,7 @@ Vec3d doubled_area(const Polygon& polygon) {
 }
 
 /// Six times the volume of the pyramid over a polygon.
-double six_volumes(const Polygon& polygon, const Vec3d& apex) {
+double six_volumes(const SidePolygon& polygon, const Vec3d& apex) {
   double sum = 0;
   for (std::size_t i = 2; i < polygon.size(); ++i)
     sum += (polygon[0] - apex).dot((polygon[i - 1] - apex).cross(polygon[i] - apex));
@@ -57,9 +57,9 @@ ExactSide side_of(const Solid& body, const Vec3d& point, const Vec3d& normal, do
   ExactSide side;
   Sum by_normal, clipped;
   for (const Triangle& triangle : body.triangles) {
-    const Polygon face = {body.positions[triangle[0]], body.positions[triangle[1]],
-                          body.positions[triangle[2]]};
-    const Polygon part = clip(face, point, normal);
+    const SidePolygon face = {body.positions[triangle[0]], body.positions[triangle[1]],
+                              body.positions[triangle[2]]};
+    const SidePolygon part = clip(face, point, normal);
     side.volume += six_volumes(part, point) / 6;
     clipped.add(doubled_area(part));
     const bool is_in_plane = std::all_of(face.begin(), face.end(), [&](const Vec3d& corner) {
@@ -98,8 +98,8 @@ ExactSides exact_sides(const Solid& body, const Vec3d& point, const Vec3d& norma
   exact.sides = {side_of(body, point, -normal, kInPlane * farthest),
                  side_of(body, point, normal, kInPlane * farthest)};
   for (const Triangle& triangle : body.triangles) {
-    const Polygon face = {body.positions[triangle[0]], body.positions[triangle[1]],
-                          body.positions[triangle[2]]};
+    const SidePolygon face = {body.positions[triangle[0]], body.positions[triangle[1]],
+                              body.positions[triangle[2]]};
     exact.volume += six_volumes(face, point) / 6;
     exact.area += 0.5 * doubled_area(face).norm();
   }
@@ -111,8 +111,8 @@ std::string fault_of_side(const Solid& surface, bool is_capped, std::size_t side
   const ExactSide& wanted = exact.sides[side];
   double area = 0, volume = 0;
   for (const Triangle& triangle : surface.triangles) {
-    const Polygon face = {surface.positions[triangle[0]], surface.positions[triangle[1]],
-                          surface.positions[triangle[2]]};
+    const SidePolygon face = {surface.positions[triangle[0]], surface.positions[triangle[1]],
+                              surface.positions[triangle[2]]};
     area += 0.5 * doubled_area(face).norm();
     volume += six_volumes(face, point) / 6;
   }

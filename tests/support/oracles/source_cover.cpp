@@ -9,7 +9,7 @@
 namespace sunder::test {
 namespace {
 
-using Place = std::array<double, 3>;
+using CoverPlace = std::array<double, 3>;
 
 /// One mesh of a model, and the origins of its triangles.
 class TornMesh {
@@ -39,8 +39,8 @@ class TornMesh {
   }
 
   /// The barycentric position of a vertex in a triangle, or nothing if it does not belong to it.
-  [[nodiscard]] std::optional<Place> place_in(const Triangle& in, std::uint32_t vertex) const {
-    Place place = {0, 0, 0};
+  [[nodiscard]] std::optional<CoverPlace> place_in(const Triangle& in, std::uint32_t vertex) const {
+    CoverPlace place = {0, 0, 0};
     const auto add = [&](std::uint32_t parent, double part) {
       const auto at = std::find(in.begin(), in.end(), parent);
       if (at == in.end()) return false;
@@ -74,7 +74,7 @@ class TornMesh {
 
 /// The fraction of the origin that a triangle with these corners covers; negative if it is
 /// inverted.
-double area_of(const std::array<Place, 3>& p) {
+double area_of(const std::array<CoverPlace, 3>& p) {
   return p[0][0] * (p[1][1] * p[2][2] - p[1][2] * p[2][1]) -
          p[0][1] * (p[1][0] * p[2][2] - p[1][2] * p[2][0]) +
          p[0][2] * (p[1][0] * p[2][1] - p[1][1] * p[2][0]);
@@ -97,7 +97,7 @@ double cover_by(const TornMesh& mesh, std::uint32_t triangle, std::uint32_t orig
   if ((!is_whole || mesh.is_filling(origin)) && !faces_as(mesh, part, origin))
     faults.push_back(say("triangle ", triangle, " has no area, or turned over, in bind space"));
   if (is_whole) return 1;
-  std::array<Place, 3> places;
+  std::array<CoverPlace, 3> places;
   for (std::size_t k = 0; k < 3; ++k) {
     const auto place = mesh.place_in(whole, part[k]);
     if (!place) {

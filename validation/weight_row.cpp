@@ -1,4 +1,4 @@
-#include "validation/transfer/weight_row.h"
+#include "validation/weight_row.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <sunder/core/index.h>
+
+#include <span>
+#include <utility>
+
+#include "io/gltf/parse_json.h"
+
+namespace sunder::gltf {
+
+inline Json numbers_of(std::span<const float> values) {
+  Json array = Json::array();
+  for (const float value : values) array.push_back(static_cast<double>(value));
+  return array;
+}
+
+/// @return the index of the new entry. Makes the list if the document has none.
+inline Index append(Json& document, const char* list_name, Json entry) {
+  Json& list = document[list_name];
+  if (list.is_null()) list = Json::array();
+  list.push_back(std::move(entry));
+  return static_cast<Index>(list.size() - 1);
+}
+
+}  // namespace sunder::gltf
