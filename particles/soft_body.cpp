@@ -8,6 +8,7 @@
 #include "particles/body_state.h"
 #include "particles/clusters/influences.h"
 #include "particles/clusters/structure_of.h"
+#include "particles/internal/recorded_limits.h"
 #include "particles/internal/tolerances.h"
 
 namespace sunder {
@@ -16,11 +17,15 @@ namespace {
 using particles::BodyState;
 using particles::for_each_influence;
 
-Status check_finite(const char* what, const Vec3d& value) {
-  if (value.allFinite()) return {};
-  return Status::failure(StatusCode::non_finite_value, kNone,
-                         "%s is (%g, %g, %g); it must be finite", what, value.x(), value.y(),
-                         value.z());
+Status check_vector(const char* what, const Vec3d& value, double most) {
+  if (!value.allFinite())
+    return Status::failure(StatusCode::non_finite_value, kNone,
+                           "%s is (%g, %g, %g); it must be finite", what, value.x(), value.y(),
+                           value.z());
+  if (value.cwiseAbs().maxCoeff() <= most) return {};
+  return Status::failure(StatusCode::invalid_argument, kNone,
+                         "%s is (%g, %g, %g); no coordinate may be beyond %g", what, value.x(),
+                         value.y(), value.z(), most);
 }
 
 Status check_particle(const BodyState& state, Index particle) {
@@ -41,12 +46,28 @@ Status check_point(const BodyState& state, Index point) {
   return {};
 }
 
+/// Whether an impulse leaves a particle as slow as a recorded one may be.
+Status check_speed(const SoftBody& body, const BodyState& state, Index particle,
+                   const Vec3d& newton_seconds) {
+  const Vec3d velocity = state.motion.velocities[particle] + newton_seconds / body.mass(particle);
+  if (velocity.cwiseAbs().maxCoeff() <= particles::kMostRecordedLength) return {};
+  return Status::failure(StatusCode::invalid_argument, particle,
+                         "an impulse would give particle %u a velocity beyond %g m/s", particle,
+                         particles::kMostRecordedLength);
+}
+
+void push(const SoftBody& body, BodyState& state, Index particle, const Vec3d& newton_seconds) {
+  if (newton_seconds == Vec3d::Zero()) return;
+  state.motion.velocities[particle] += newton_seconds / body.mass(particle);
+  state.wake_around(particle);
+}
+
 Status check_hold(const Vec3d& target, const HoldOptions& options) {
   if (!(options.stiffness > 0) || !(options.stiffness <= 1e12))
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "the stiffness of a hold is %g; it must be above 0 and at most 1e12",
                            options.stiffness);
-  return check_finite("the target of a hold", target);
+  return check_vector("the target of a hold", target, particles::kMostRecordedLength);
 }
 
 Status check_material(const SoftMaterial& material, Index index) {
@@ -146,20 +167,28 @@ std::span<const SoftMaterial> SoftBody::materials() const { return state_->mater
 Status SoftBody::add_impulse(std::uint32_t particle, const Vec3d& newton_seconds) {
   if (Status status = follow(*state_); !status) return status;
   if (Status status = check_particle(*state_, particle); !status) return status;
-  if (Status status = check_finite("an impulse", newton_seconds); !status) return status;
-  if (newton_seconds == Vec3d::Zero()) return {};
-  auto& motion = state_->motion;
-  motion.velocities[particle] += newton_seconds / mass(particle);
-  state_->wake_around(particle);
+  if (Status status = check_vector("an impulse", newton_seconds, particles::kMostRecordedForce);
+      !status)
+    return status;
+  if (Status status = check_speed(*this, *state_, particle, newton_seconds); !status) return status;
+  push(*this, *state_, particle, newton_seconds);
   return {};
 }
 
 Status SoftBody::add_point_impulse(std::uint32_t point, const Vec3d& newton_seconds) {
   if (Status status = follow(*state_); !status) return status;
   if (Status status = check_point(*state_, point); !status) return status;
-  if (Status status = check_finite("an impulse", newton_seconds); !status) return status;
-  for_each_influence(state_->set->influences()[point], [&](Index p, double weight) {
-    (void)add_impulse(p, weight * newton_seconds);
+  if (Status status = check_vector("an impulse", newton_seconds, particles::kMostRecordedForce);
+      !status)
+    return status;
+  const auto& influences = state_->set->influences()[point];
+  Status status;
+  for_each_influence(influences, [&](Index p, double weight) {
+    if (status) status = check_speed(*this, *state_, p, weight * newton_seconds);
+  });
+  if (!status) return status;
+  for_each_influence(influences, [&](Index p, double weight) {
+    push(*this, *state_, p, weight * newton_seconds);
   });
   return {};
 }
@@ -167,7 +196,8 @@ Status SoftBody::add_point_impulse(std::uint32_t point, const Vec3d& newton_seco
 Status SoftBody::set_force(std::uint32_t particle, const Vec3d& newtons) {
   if (Status status = follow(*state_); !status) return status;
   if (Status status = check_particle(*state_, particle); !status) return status;
-  if (Status status = check_finite("a force", newtons); !status) return status;
+  if (Status status = check_vector("a force", newtons, particles::kMostRecordedForce); !status)
+    return status;
   if (state_->motion.forces[particle] == newtons) return {};
   state_->motion.forces[particle] = newtons;
   state_->wake_around(particle);
@@ -175,7 +205,8 @@ Status SoftBody::set_force(std::uint32_t particle, const Vec3d& newtons) {
 }
 
 Status SoftBody::set_gravity(const Vec3d& acceleration) {
-  if (Status status = check_finite("gravity", acceleration); !status) return status;
+  if (Status status = check_vector("gravity", acceleration, particles::kMostRecordedForce); !status)
+    return status;
   if (state_->outer.gravity == acceleration) return {};
   if (Status status = follow(*state_); !status) return status;
   state_->outer.gravity = acceleration;
@@ -192,10 +223,11 @@ Status SoftBody::set_wind(WindField wind) {
 }
 
 Status SoftBody::set_tension(Tension tension) {
-  if (!std::isfinite(tension.newtons_per_metre) || tension.newtons_per_metre < 0)
+  if (!(tension.newtons_per_metre >= 0 &&
+        tension.newtons_per_metre <= particles::kMostRecordedForce))
     return Status::failure(StatusCode::invalid_argument, kNone,
-                           "the tension is %g N/m; it must be finite and not below 0",
-                           tension.newtons_per_metre);
+                           "the tension is %g N/m; it must be from 0 to %g",
+                           tension.newtons_per_metre, particles::kMostRecordedForce);
   state_->outer.tension = std::move(tension);
   state_->outer.is_tension_stale = true;
   return {};
@@ -228,7 +260,9 @@ Result<HoldId> SoftBody::hold_point(std::uint32_t point, const Vec3d& target,
 }
 
 Status SoftBody::move_hold(HoldId hold, const Vec3d& target) {
-  if (Status status = check_finite("the target of a hold", target); !status) return status;
+  if (Status status = check_vector("the target of a hold", target, particles::kMostRecordedLength);
+      !status)
+    return status;
   if (state_->holds.move(hold, target)) {
     state_->outer.is_disturbed = true;
     return {};

@@ -55,6 +55,20 @@ TEST(soft_body, begins_at_rest_and_stays_there) {
   EXPECT_TRUE(scene.body->moved_vertices(*scene.model, 0).empty());
 }
 
+TEST(soft_body, the_largest_impulse_leaves_a_state_that_can_be_saved_and_restored) {
+  SoftScene scene = make_tube_scene();
+  const Vec3d largest(0, 0, 0.99e9 * scene.body->mass(3));
+  ASSERT_TRUE(scene.body->add_impulse(3, largest));
+  EXPECT_EQ(scene.body->add_impulse(3, largest).code(), StatusCode::invalid_argument);
+  scene.run(0.5);
+  for (std::uint32_t p = 0; p < scene.count(); ++p)
+    EXPECT_TRUE(scene.body->displacement(p).allFinite()) << p;
+  const auto saved = scene.body->save();
+  ASSERT_TRUE(saved) << saved.error().text();
+  const Status status = scene.body->restore(*saved);
+  EXPECT_TRUE(status) << status.text();
+}
+
 TEST(soft_body, an_impulse_is_its_momentum) {
   for (const double seconds : {0.0, 1e-9}) {
     SoftScene scene = make_tube_scene();
@@ -558,6 +572,16 @@ TEST(soft_body, invalid_input_is_named_and_changes_nothing) {
   expect(body.set_force(0, nan), StatusCode::non_finite_value, kNone, "force");
   expect(body.set_gravity(nan), StatusCode::non_finite_value, kNone, "gravity");
   expect(body.set_tension({-1.0, {}}), StatusCode::invalid_argument, kNone, "tension");
+  const Vec3d huge(0, 1e60, 0);
+  expect(body.add_impulse(0, huge), StatusCode::invalid_argument, kNone, "impulse");
+  expect(body.add_impulse(0, {1e12, 0, 0}), StatusCode::invalid_argument, 0, "velocity");
+  expect(body.add_point_impulse(1, huge), StatusCode::invalid_argument, kNone, "impulse");
+  EXPECT_EQ(body.add_point_impulse(1, {0, 0, -1e12}).code(), StatusCode::invalid_argument);
+  expect(body.set_force(0, huge), StatusCode::invalid_argument, kNone, "force");
+  expect(body.set_gravity(huge), StatusCode::invalid_argument, kNone, "gravity");
+  expect(body.set_tension({1e13, {}}), StatusCode::invalid_argument, kNone, "tension");
+  expect(body.hold(0, huge).error(), StatusCode::invalid_argument, kNone, "target");
+  expect(body.move_hold(*hold, huge), StatusCode::invalid_argument, kNone, "target");
   expect(body.set_material(count, 0), StatusCode::index_out_of_range, count, "particle");
   expect(body.set_material(0, 1), StatusCode::index_out_of_range, 1, "material");
   SoftMaterial bad;

@@ -112,6 +112,8 @@ class SUNDER_API SoftBody {
   // ---- Forces.
 
   /// Newton seconds, applied at once. On a point: distributed by its influences.
+  /// @return also invalid_argument for a velocity beyond 1e9 m/s. Forces, gravity and tension are
+  ///         at most 1e12, targets of holds at most 1e9 m, as in recorded states.
   Status add_impulse(std::uint32_t particle, const Vec3d& newton_seconds);
   Status add_point_impulse(std::uint32_t point, const Vec3d& newton_seconds);
   /// Newtons, constant until it is set again.
