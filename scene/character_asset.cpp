@@ -2,6 +2,7 @@
 #include <sunder/scene/character_asset.h>
 #include <sunder/skinning/pose.h>
 
+#include <cmath>
 #include <new>
 
 #include "core/internal/out_of_memory.h"
@@ -70,6 +71,10 @@ Result<std::shared_ptr<const CharacterAsset>> CharacterAsset::create(
   try {
     auto torn = TornAsset::create(character);
     if (!torn) return torn.error();
+    if (!(std::isfinite(options.coarser_below) && options.coarser_below >= 0))
+      return Status::failure(StatusCode::invalid_argument, kNone,
+                             "coarser_below is %g pixels; it must be finite and not negative",
+                             options.coarser_below);
     if (options.coarser)
       if (Status status = check_coarser(*character, *options.coarser->character()); !status)
         return status;

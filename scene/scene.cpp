@@ -133,6 +133,11 @@ Scene::Scene(Scene&&) noexcept = default;
 Scene& Scene::operator=(Scene&&) noexcept = default;
 
 Result<Scene> Scene::create(const SceneOptions& options) {
+  for (const double height : options.slower_below)
+    if (!(std::isfinite(height) && height >= 0))
+      return Status::failure(StatusCode::invalid_argument, kNone,
+                             "slower_below is %g pixels; it must be finite and not negative",
+                             height);
   const MemoryScope scope(options.memory);
   try {
     auto state = std::make_unique<State>(options);

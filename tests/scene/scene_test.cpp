@@ -453,6 +453,16 @@ TEST(scene, refuses_what_cannot_be) {
   EXPECT_EQ(scene.set_pose(id, pose).code(), StatusCode::non_finite_value);
   pose.model_from_bone.pop_back();
   EXPECT_EQ(scene.set_pose(id, pose).code(), StatusCode::size_mismatch);
+  for (const double height : {kNan, -1.0, std::numeric_limits<double>::infinity()}) {
+    SceneOptions options;
+    options.slower_below = {100, height};
+    EXPECT_EQ(Scene::create(options).error().code(), StatusCode::invalid_argument) << height;
+    CharacterAssetOptions of_asset;
+    of_asset.coarser_below = height;
+    EXPECT_EQ(CharacterAsset::create(asset->character(), of_asset).error().code(),
+              StatusCode::invalid_argument)
+        << height;
+  }
 }
 
 }  // namespace
