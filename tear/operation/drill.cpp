@@ -14,6 +14,8 @@ namespace sunder::tear {
 namespace {
 
 constexpr std::size_t kMostSides = 1536;
+/// Relative to the radius, as 1536 sides reach: 1 - cos(pi / 1536) = 2.1e-6.
+constexpr double kLeastChordTolerance = 2.5e-6;
 /// Radius of the prism's core, by the distance of its sides from the axis.
 constexpr double kCoreRadii = 0.999;
 
@@ -89,10 +91,13 @@ Status validate_bore(const Bore& bore) {
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "the depth of the bore is %g; it must be above 0 and at most 1e30",
                            bore.depth);
-  if (!(bore.chord_tolerance >= 0 && bore.chord_tolerance <= bore.radius))
+  const double least = kLeastChordTolerance * bore.radius;
+  if (bore.chord_tolerance != 0 &&
+      !(bore.chord_tolerance >= least && bore.chord_tolerance <= bore.radius))
     return Status::failure(StatusCode::invalid_argument, kNone,
-                           "the chord tolerance is %g; it must be from 0 to the radius",
-                           bore.chord_tolerance);
+                           "the chord tolerance is %g; it must be 0, or from %g (%g of the radius) "
+                           "to the radius",
+                           bore.chord_tolerance, least, kLeastChordTolerance);
   return {};
 }
 

@@ -110,6 +110,7 @@ std::vector<Refusal> refusals() {
       drill("radius_of_nan", kInvalid, [](Bore& b) { b.radius = kNan; }),
       drill("huge_depth", kInvalid, [](Bore& b) { b.depth = 1e31; }),
       drill("negative_chord_tolerance", kInvalid, [](Bore& b) { b.chord_tolerance = -0.01; }),
+      drill("chords_finer_than_1536_sides", kInvalid, [](Bore& b) { b.chord_tolerance = 1e-300; }),
       drill("chords_longer_than_the_radius", kInvalid, [](Bore& b) { b.chord_tolerance = 0.2; }),
       tear("blade_of_nan", kNotFinite, [](TearOperation& t) { t.stroke[1].tip.x() = kNan; }),
       tear("far_blade", kInvalid, [](TearOperation& t) { t.stroke[1].base.x() = kFar; }),

@@ -81,7 +81,8 @@ struct Bore {
   Vec3d direction = Vec3d(0.0, 0.0, -1.0);  ///< Direction of the axis; any length except zero.
   double radius = 0.0;                      ///< Metres; > 0.
   double depth = 0.0;                       ///< From the origin along the axis, metres; > 0.
-  /// Largest distance between the polygonal rim and the circle, metres. 0: 1 % of the radius.
+  /// Largest distance between the polygonal rim and the circle, metres: 2.5e-6 to 1 of the radius.
+  /// 0: 1 % of it.
   double chord_tolerance = 0.0;
   bool wall = false;  ///< Lines the bore with a wall, from rim to rim or down to a floor.
   std::optional<WeightOptions> weights = {};  ///< For new points; if empty, the model's options.
