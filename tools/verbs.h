@@ -5,6 +5,7 @@
 #include <sunder/operation/aimed_operation.h>
 #include <sunder/robot/trajectory.h>
 #include <sunder/validation/transfer.h>
+#include <sunder/validation/validation.h>
 
 #include <filesystem>
 #include <optional>
@@ -162,6 +163,7 @@ struct ValidateRequest {
   std::filesystem::path source, target;
   std::optional<std::filesystem::path> operations, bone_names;
   std::string profile, limits = "none", fail_on = "error";
+  double error_deviation = ValidationOptions{}.error_deviation;
   std::optional<std::filesystem::path> report;    ///< Output file of the JSON report.
   std::optional<std::filesystem::path> html;      ///< Output file of the page.
   std::optional<std::filesystem::path> manifest;  ///< Many pairs instead of source and target.

@@ -31,6 +31,7 @@ namespace {
 
 constexpr double kMatchDistance = 0.05;  ///< Of the diagonal.
 constexpr double kMatchCosine = 0.0;
+constexpr double kErrorLimits = 10;  ///< A deviation of so many limits is an error.
 
 Status check_stored(const Character& character, std::span<const StoredInfluences> stored,
                     const char* which) {
@@ -242,7 +243,10 @@ void Validation::check_poses(const RowReader& reader) {
         deviation_over_time(*source_character_, points.bind(), differences,
                             report_.posed.front().sample_count, options_.times_per_clip);
   check_deviation(reader, points, differences, batches, report_,
-                  options_.maximum_deviation * report_.diagonal, *findings_);
+                  options_.maximum_deviation * report_.diagonal,
+                  std::min(options_.error_deviation, kErrorLimits * options_.maximum_deviation) *
+                      report_.diagonal,
+                  *findings_);
   check_shapes(reader, points, differences, batches.back(), *findings_);
   const CrackRows cracks = check_cracks(reader, points, batches, *findings_);
   check_profile(reader, points, batches, options_.profile, *findings_);

@@ -72,7 +72,7 @@ TEST_F(Validate, a_model_beside_itself_has_no_finding_above_a_note) {
   const auto result = run_sunder({"validate", path("model.glb"), path("model.glb"), "--fail-on",
                                   "warning", "--report", path("r.json")});
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
-  EXPECT_THAT(result.out, HasSubstr("0 errors, 0 warnings"));
+  EXPECT_THAT(result.out, HasSubstr("PASS: 0 errors, 0 warnings"));
   EXPECT_THAT(result.out, Not(HasSubstr("\x1b"))) << "colour only on a terminal";
   const json report = read_report(path("r.json"));
   EXPECT_EQ(report["sunder_validation"], 1);
@@ -80,6 +80,24 @@ TEST_F(Validate, a_model_beside_itself_has_no_finding_above_a_note) {
   EXPECT_EQ(report["verdicts"]["SUNDER_W_SUM"]["result"], "Pass");
   EXPECT_EQ(report["verdicts"]["SUNDER_W_POP"]["result"], "Not tested");
   EXPECT_THAT(report["verdicts"]["SUNDER_W_POP"]["why"].get<std::string>(), Not(IsEmpty()));
+}
+
+TEST_F(Validate, a_deviation_is_an_error_by_its_size) {
+  Character stiff = tools::make_cactus();
+  for (Mesh& mesh : stiff.meshes) {
+    const std::vector<Influence> first = {{0, 1.0f}};
+    mesh.weights = {};
+    for (Index v = 0; v < mesh.vertex_count(); ++v) mesh.weights.append(first);
+  }
+  ASSERT_TRUE(save_glb(path("stiff.glb"), stiff));
+  const auto failed = run_sunder({"validate", path("model.glb"), path("stiff.glb")});
+  EXPECT_EQ(failed.exit_code, 1) << failed.err;
+  EXPECT_THAT(failed.out, HasSubstr("error    SUNDER_W_DEVIATION"));
+  EXPECT_THAT(failed.out, HasSubstr("FAIL: "));
+  EXPECT_THAT(failed.out, HasSubstr("% of the diagonal"));
+  const auto refused =
+      run_sunder({"validate", path("model.glb"), path("stiff.glb"), "--error-deviation", "-1"});
+  EXPECT_EQ(refused.exit_code, 2);
 }
 
 TEST_F(Validate, no_model_is_overwritten) {

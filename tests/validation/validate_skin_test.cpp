@@ -39,6 +39,31 @@ std::pair<Character, Character> tube_and_copy() {
   return {source, target};
 }
 
+TEST(ValidateSkin, a_large_deviation_is_an_error_and_a_small_one_a_warning) {
+  const auto [source, target] = tube_and_copy();
+  ValidationOptions options;
+  const auto severity = [&, &source = source, &target = target] {
+    const auto report = validate_skin(share(source), share(target), options);
+    EXPECT_TRUE(report) << report.error().text();
+    for (const Finding& finding : report->findings)
+      if (finding.code == "SUNDER_W_DEVIATION")
+        return std::pair(finding.severity, finding.value / report->diagonal);
+    return std::pair(Severity::note, 0.0);
+  };
+  const double share_of_diagonal = severity().second;
+  ASSERT_GT(share_of_diagonal, 1e-3);
+  options.maximum_deviation = 0.5 * share_of_diagonal;
+  options.error_deviation = 1.01 * share_of_diagonal;
+  EXPECT_EQ(severity().first, Severity::warning);
+  options.error_deviation = 0.99 * share_of_diagonal;
+  EXPECT_EQ(severity().first, Severity::error);
+  options.error_deviation = 100;
+  options.maximum_deviation = 0.099 * share_of_diagonal;
+  EXPECT_EQ(severity().first, Severity::error) << "more than ten times the limit";
+  options.maximum_deviation = 0.101 * share_of_diagonal;
+  EXPECT_EQ(severity().first, Severity::warning);
+}
+
 TEST(ValidateSkin, the_worst_pose_shows_the_largest_deviation) {
   const auto [source, target] = tube_and_copy();
   const auto report = validate_skin(share(source), share(target));

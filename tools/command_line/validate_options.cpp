@@ -25,6 +25,11 @@ CLI::App* add_validate(CLI::App& app, ValidateRequest& request) {
   verb->add_option("--fail-on", request.fail_on, "Least severity for exit code 1")
       ->check(CLI::IsMember({"error", "warning", "note"}))
       ->capture_default_str();
+  verb->add_option("--error-deviation", request.error_deviation,
+                   "Share of the source's diagonal from which a deviation is an error")
+      ->check(CLI::Range(0.0, 1e9))
+      ->type_name("SHARE")
+      ->capture_default_str();
   verb->add_option("--report", request.report, "File for the JSON report")->type_name("FILE");
   verb->add_option("--html", request.html, "File for a page with both models, which opens offline")
       ->type_name("FILE");

@@ -40,7 +40,7 @@ TargetProfile profile_named(const std::string& name) {
 /// Prints results and progress of jobs that run at the same time, whole lines at a time.
 class Output {
  public:
-  explicit Output(const ValidateRequest& request) : request_(request) {}
+  Output(const ValidateRequest& request, Severity fail_on) : request_(request), fail_on_(fail_on) {}
 
   void progress(const Job& job, std::string_view stage, double share) {
     if (!request_.as_json_lines) return;
@@ -52,7 +52,7 @@ class Output {
   void result(const Job& job, const ValidatedPair& pair) {
     if (!request_.as_json_lines) {
       const std::scoped_lock lock(mutex_);
-      print(validation_text(pair, is_in_colour(STDOUT_FILENO)));
+      print(validation_text(pair, fail_on_, is_in_colour(STDOUT_FILENO)));
       return;
     }
     const auto count = [&](Severity severity) {
@@ -81,6 +81,7 @@ class Output {
   }
 
   const ValidateRequest& request_;
+  Severity fail_on_;
   std::mutex mutex_;
 };
 
@@ -126,7 +127,8 @@ Status read_manifest(const std::filesystem::path& file, const ValidateRequest& r
       return Status::failure(StatusCode::malformed_file, index,
                              "/pairs/%u: expected source and target", index);
     Job job{{*source, *target, file_of(pair, "ops", folder), file_of(pair, "bone_names", folder),
-             profile_named(request.profile), request.limits, false, request.reading},
+             profile_named(request.profile), request.limits, false, request.reading,
+             request.error_deviation},
             file_of(pair, "report", folder),
             file_of(pair, "html", folder)};
     if (const auto profile = pair.find("profile"); profile != pair.end() && profile->is_string())
@@ -190,7 +192,8 @@ ExitCode run_validate(const ValidateRequest& request) {
     budget.allow_each(jobs.size());
   } else {
     jobs.push_back({{request.source, request.target, request.operations, request.bone_names,
-                     profile_named(request.profile), request.limits, false, request.reading},
+                     profile_named(request.profile), request.limits, false, request.reading,
+                     request.error_deviation},
                     request.report,
                     request.html});
   }
@@ -204,7 +207,7 @@ ExitCode run_validate(const ValidateRequest& request) {
     if (const Status status = has_pages(); !status)
       return complain("--html", status, ExitCode::usage);
   }
-  Output output(request);
+  Output output(request, fail_on);
   return run_jobs(jobs, request.jobs, fail_on, budget, output);
 }
 

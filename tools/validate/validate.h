@@ -33,6 +33,7 @@ struct ValidatePair {
   std::string limits = "none";  ///< "none" (of a robot: its own), "clips" or a file.
   bool over_time = false;       ///< Also measures the deviation over the time of each clip.
   ModelReading reading = {};
+  double error_deviation = ValidationOptions{}.error_deviation;  ///< See there.
 };
 
 /// A failure and the file that it is about.
@@ -54,8 +55,9 @@ struct ValidateFailure {
 [[nodiscard]] Json validation_json(const ValidatedPair& pair);
 
 /// The report for people: one line per finding and a verdict.
+/// @param fail_on    least severity of a finding that fails.
 /// @param in_colour  with escape sequences.
-[[nodiscard]] Lines validation_text(const ValidatedPair& pair, bool in_colour);
+[[nodiscard]] Lines validation_text(const ValidatedPair& pair, Severity fail_on, bool in_colour);
 
 /// Whether some finding is at or above a severity.
 [[nodiscard]] bool has_findings(const ValidationReport& report, Severity severity);

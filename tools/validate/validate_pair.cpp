@@ -120,6 +120,7 @@ std::optional<ValidatedPair> validate_pair(
   options.stored_source = source->stored;
   options.stored_target = target->stored;
   options.profile = pair.profile;
+  options.error_deviation = pair.error_deviation;
   if (pair.over_time) options.times_per_clip = kPairTimesPerClip;
   options.progress = progress;
   std::vector<Operation> operations;

@@ -31,6 +31,16 @@ void add_posed(Lines& lines, const ValidationReport& report) {
   }
 }
 
+/// "worst deviation …; " over all poses that were tried; empty if none was.
+std::string worst_deviation(const ValidationReport& report) {
+  double worst = -1;
+  for (const PosedFigures& figures : report.posed)
+    if (figures.pose_count > 0) worst = std::max(worst, figures.maximum);
+  if (worst < 0) return {};
+  return printed("worst deviation %.3g m, %.3g %% of the diagonal; ", worst,
+                 report.diagonal > 0 ? 100 * worst / report.diagonal : 0.0);
+}
+
 std::string bracket_line(const DeviationBracket& bracket) {
   if (!bracket.is_tested) return printed("%-16s none: %s", "certificate", bracket.why.c_str());
   return printed("%-16s all poses within the limits: found %.4g m, certified %.4g m.%.300s",
@@ -39,7 +49,7 @@ std::string bracket_line(const DeviationBracket& bracket) {
 
 }  // namespace
 
-Lines validation_text(const ValidatedPair& pair, bool in_colour) {
+Lines validation_text(const ValidatedPair& pair, Severity fail_on, bool in_colour) {
   const ValidationReport& report = pair.report;
   Lines lines;
   lines.add(pair.source_file.string() + " -> " + pair.target_file.string());
@@ -60,9 +70,14 @@ Lines validation_text(const ValidatedPair& pair, bool in_colour) {
   };
   const auto untested =
       std::ranges::count(report.verdicts, Verdict::not_tested, &CodeVerdict::verdict);
-  lines.add(printed("%-16s %u errors, %u warnings, %u notes; %u of %zu checks not tested",
-                    "verdict", count(Severity::error), count(Severity::warning),
-                    count(Severity::note), static_cast<unsigned>(untested),
+  const bool fails = has_findings(report, fail_on);
+  lines.add(!in_colour ? Colour::none
+            : fails    ? Colour::red
+                       : Colour::cyan,
+            printed("%-16s %s", "verdict", fails ? "FAIL" : "PASS"),
+            printed(": %u errors, %u warnings, %u notes; %s%u of %zu checks not tested",
+                    count(Severity::error), count(Severity::warning), count(Severity::note),
+                    worst_deviation(report).c_str(), static_cast<unsigned>(untested),
                     report.verdicts.size()));
   return lines;
 }

@@ -136,7 +136,8 @@ void measure_deviation(const RowReader& reader, const SkinDifferences& differenc
 
 void check_deviation(const RowReader& reader, const SkinPoints& points,
                      const SkinDifferences& differences, std::span<const PoseBatch> batches,
-                     const ValidationReport& report, double threshold, FindingList& findings) {
+                     const ValidationReport& report, double threshold, double error_threshold,
+                     FindingList& findings) {
   const Skinned& target = reader.target();
   SkinDifferences strays;
   std::vector<Index> vertices;
@@ -165,10 +166,13 @@ void check_deviation(const RowReader& reader, const SkinPoints& points,
   }
   for (std::size_t i = 0; i < vertices.size(); ++i)
     if (largest[i] > threshold) places.push_back(target.place(vertices[i], kNone, largest[i]));
+  const bool is_error = std::ranges::any_of(
+      places, [&](const FindingPlace& place) { return place.value > error_threshold; });
   findings.add(
       Code::deviation, std::move(places),
       "Over " + std::to_string(poses) + " poses; the limit is " + std::to_string(threshold) + " m.",
       Evidence::sampled);
+  if (is_error) findings.raise_to_error(Code::deviation);
 }
 
 }  // namespace sunder::validation

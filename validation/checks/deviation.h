@@ -41,6 +41,7 @@ void measure_deviation(const RowReader& reader, const SkinDifferences& differenc
 /// new vertices on the source's faces, which even perfect weights have, is not counted.
 void check_deviation(const RowReader& reader, const SkinPoints& points,
                      const SkinDifferences& differences, std::span<const PoseBatch> batches,
-                     const ValidationReport& report, double threshold, FindingList& findings);
+                     const ValidationReport& report, double threshold, double error_threshold,
+                     FindingList& findings);
 
 }  // namespace sunder::validation

@@ -80,6 +80,11 @@ void FindingList::add_finding(Code code, Severity severity, Evidence evidence, s
   mark_tested(code, severity == Severity::note ? Verdict::pass : Verdict::fail);
 }
 
+void FindingList::raise_to_error(Code code) {
+  for (Finding& finding : findings_)
+    if (finding.code == kind_of(code).code) finding.severity = Severity::error;
+}
+
 void FindingList::add(Code code, Places places, const std::string& detail, Evidence evidence) {
   add_new(code, std::move(places), {}, detail, evidence);
 }

@@ -26,6 +26,8 @@ class FindingList {
   /// A finding that is not about places, or has another severity than its code.
   void add_finding(Code code, Severity severity, Evidence evidence, std::string text, Places places,
                    double value);
+  /// Makes the findings of a code errors.
+  void raise_to_error(Code code);
   void not_tested(Code code, const std::string& why);
 
   /// Sorts findings and settles the verdicts.

@@ -3,9 +3,9 @@
 #include <vector>
 
 #include "validation/checks/skinned.h"
+#include "validation/internal/weight_row.h"
 #include "validation/match/bone_match.h"
 #include "validation/match/surface_match.h"
-#include "validation/weight_row.h"
 
 namespace sunder::validation {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "validation/weight_row.h"
+#include "validation/internal/weight_row.h"
 
 namespace sunder::validation {
 

@@ -4,8 +4,8 @@
 
 #include <vector>
 
+#include "validation/internal/weight_row.h"
 #include "validation/match/bone_match.h"
-#include "validation/weight_row.h"
 
 namespace sunder::validation {
 

@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
+#include "validation/internal/weight_row.h"
 #include "validation/match/surface_match.h"
-#include "validation/weight_row.h"
 
 namespace sunder::validation {
 

@@ -1,4 +1,4 @@
-#include "validation/weight_row.h"
+#include "validation/internal/weight_row.h"
 
 #include <algorithm>
 #include <cmath>
