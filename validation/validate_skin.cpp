@@ -1,6 +1,7 @@
 #include <sunder/validation/validation.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <new>
 #include <numeric>
@@ -304,6 +305,13 @@ Result<ValidationReport> validate_skin(const std::shared_ptr<const Character>& s
   using namespace validation;
   if (!source || !target)
     return Status::failure(StatusCode::empty_input, kNone, "validate_skin: no character");
+  for (const auto& [name, value] : {std::pair("maximum_deviation", options.maximum_deviation),
+                                    std::pair("error_deviation", options.error_deviation),
+                                    std::pair("random_angle", options.random_angle),
+                                    std::pair("clip_margin", options.clip_margin)})
+    if (!(std::isfinite(value) && value >= 0))
+      return Status::failure(StatusCode::invalid_argument, kNone,
+                             "%s is %g; it must be finite and not negative", name, value);
   try {
     for (const auto* const character : {source.get(), target.get()})
       if (const Status status = validate_character(*character); !status) return status;

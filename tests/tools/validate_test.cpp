@@ -95,9 +95,13 @@ TEST_F(Validate, a_deviation_is_an_error_by_its_size) {
   EXPECT_THAT(failed.out, HasSubstr("error    SUNDER_W_DEVIATION"));
   EXPECT_THAT(failed.out, HasSubstr("FAIL: "));
   EXPECT_THAT(failed.out, HasSubstr("% of the diagonal"));
-  const auto refused =
-      run_sunder({"validate", path("model.glb"), path("stiff.glb"), "--error-deviation", "-1"});
-  EXPECT_EQ(refused.exit_code, 2);
+  for (const char* const option : {"--error-deviation", "--max-seconds", "--max-memory"})
+    for (const char* const bad : {"-1", "nan"}) {
+      const auto refused =
+          run_sunder({"validate", path("model.glb"), path("stiff.glb"), option, bad});
+      EXPECT_EQ(refused.exit_code, 2) << option << " " << bad;
+      EXPECT_THAT(refused.err, HasSubstr(option));
+    }
 }
 
 TEST_F(Validate, no_model_is_overwritten) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <memory>
 #include <set>
 #include <sstream>
@@ -62,6 +63,16 @@ TEST(ValidateSkin, a_large_deviation_is_an_error_and_a_small_one_a_warning) {
   EXPECT_EQ(severity().first, Severity::error) << "more than ten times the limit";
   options.maximum_deviation = 0.101 * share_of_diagonal;
   EXPECT_EQ(severity().first, Severity::warning);
+  for (double* const member : {&options.maximum_deviation, &options.error_deviation,
+                               &options.random_angle, &options.clip_margin}) {
+    const double before = *member;
+    for (const double bad : {-0.1, std::numeric_limits<double>::quiet_NaN()}) {
+      *member = bad;
+      EXPECT_EQ(validate_skin(share(source), share(target), options).error().code(),
+                StatusCode::invalid_argument);
+    }
+    *member = before;
+  }
 }
 
 TEST(ValidateSkin, the_worst_pose_shows_the_largest_deviation) {

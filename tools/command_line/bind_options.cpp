@@ -1,6 +1,7 @@
 #include <string>
 
 #include "tools/bind/place.h"
+#include "tools/command_line/no_nan.h"
 #include "tools/command_line/options.h"
 
 namespace sunder::tools {
@@ -52,6 +53,7 @@ void add_weight_rules(CLI::App& verb, BindRequest& request) {
       ->excludes(map);
   verb.add_option("--heat", request.options.heat, "Heat of a bone; more makes narrower transitions")
       ->check(CLI::PositiveNumber)
+      ->check(no_nan())
       ->excludes(map)
       ->capture_default_str();
   verb.add_option("--influences", request.options.maximum_influences,

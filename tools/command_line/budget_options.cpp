@@ -1,3 +1,4 @@
+#include "tools/command_line/no_nan.h"
 #include "tools/command_line/options.h"
 
 namespace sunder::tools {
@@ -6,11 +7,13 @@ void add_budget(CLI::App& verb, BudgetLimits& limits) {
   verb.add_option("--max-seconds", limits.seconds,
                   "Time limit for the work, up to where files are written; beyond: exit code 4")
       ->check(CLI::PositiveNumber)
+      ->check(no_nan())
       ->type_name("SECONDS")
       ->capture_default_str();
   verb.add_option("--max-memory", limits.megabytes,
                   "Limit for the memory of the whole command, likewise")
       ->check(CLI::PositiveNumber)
+      ->check(no_nan())
       ->type_name("MEGABYTES")
       ->capture_default_str();
 }

@@ -1,3 +1,4 @@
+#include "tools/command_line/no_nan.h"
 #include "tools/command_line/options.h"
 
 namespace sunder::tools {
@@ -12,12 +13,14 @@ void add_model_reading(CLI::App& verb, ModelReading& reading) {
   verb.add_option("--import-seconds", reading.import_seconds,
                   "Time limit for formats that are read in the helper process")
       ->check(CLI::PositiveNumber)
+      ->check(no_nan())
       ->type_name("SECONDS")
       ->capture_default_str();
   verb.add_option("--memory", reading.memory,
                   "Limit for the memory that reading glTF takes; without it 20 times the files, at "
                   "least 64")
       ->check(CLI::Range(0.001, 1e6))
+      ->check(no_nan())
       ->type_name("MEGABYTES");
 }
 

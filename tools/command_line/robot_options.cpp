@@ -4,6 +4,7 @@
 #include <string>
 
 #include "tools/bind/place.h"
+#include "tools/command_line/no_nan.h"
 #include "tools/command_line/options.h"
 #include "tools/model/name_at.h"
 
@@ -48,6 +49,7 @@ void add_blade(CLI::App& verb, RobotTearRequest& robot, CLI::Option* file) {
   verb.add_option("--spacing", robot.spacing,
                   "Largest distance that base or tip moves between two blades, metres")
       ->check(CLI::PositiveNumber)
+      ->check(no_nan())
       ->type_name("NUMBER")
       ->group(kGroup)
       ->capture_default_str()
@@ -85,6 +87,7 @@ void add_robot(CLI::App& verb, RobotTearRequest& robot) {
   verb.add_option("--clip-speed", robot.clip_speed,
                   "Seconds by which the clip of --pose runs on per second of the motion")
       ->check(CLI::NonNegativeNumber)
+      ->check(no_nan())
       ->type_name("NUMBER")
       ->group(kGroup)
       ->capture_default_str()

@@ -1,6 +1,7 @@
 #include <memory>
 #include <string>
 
+#include "tools/command_line/no_nan.h"
 #include "tools/command_line/options.h"
 #include "tools/written_weights/written_influences.h"
 
@@ -39,6 +40,7 @@ void add_weight_policy(CLI::App& verb, TearRequest& request) {
   verb.add_option("--refit-bound", request.refit_bound,
                   "Largest growth of the certified worst deviation by a refit; 0: any")
       ->check(CLI::Range(0.0, 1e9))
+      ->check(no_nan())
       ->type_name("FACTOR")
       ->capture_default_str();
 }

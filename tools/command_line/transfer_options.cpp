@@ -1,5 +1,6 @@
 #include <string>
 
+#include "tools/command_line/no_nan.h"
 #include "tools/command_line/options.h"
 
 namespace sunder::tools {
@@ -10,11 +11,13 @@ void add_match_rules(CLI::App& verb, TransferOptions& options) {
   verb.add_option("--distance", options.distance,
                   "Largest distance of a match, share of the target's diagonal")
       ->check(CLI::NonNegativeNumber)
+      ->check(no_nan())
       ->capture_default_str();
   verb.add_option_function<double>(
           "--angle", [&options](double degrees) { options.angle = degrees / 57.295779513082323; },
           "Largest angle between the normals of a match, degrees")
       ->check(CLI::Range(0.0, 180.0))
+      ->check(no_nan())
       ->default_str("30");
   verb.add_flag("--flip-normals", options.flip_normals,
                 "Normals that point the opposite way agree too");
@@ -53,6 +56,7 @@ void add_weight_rules(CLI::App& verb, TransferRequest& request) {
       ->allow_extra_args(false);
   verb.add_option("--mix", options.mix, "Share of the new weights; the rest are the target's own")
       ->check(CLI::Range(0.0, 1.0))
+      ->check(no_nan())
       ->capture_default_str();
   verb.add_option("--vertices", request.vertices,
                   "JSON file of the vertices that change: {\"mesh\": [0, 1, 2]}")

@@ -1,3 +1,4 @@
+#include "tools/command_line/no_nan.h"
 #include "tools/command_line/options.h"
 
 namespace sunder::tools {
@@ -28,6 +29,7 @@ CLI::App* add_validate(CLI::App& app, ValidateRequest& request) {
   verb->add_option("--error-deviation", request.error_deviation,
                    "Share of the source's diagonal from which a deviation is an error")
       ->check(CLI::Range(0.0, 1e9))
+      ->check(no_nan())
       ->type_name("SHARE")
       ->capture_default_str();
   verb->add_option("--report", request.report, "File for the JSON report")->type_name("FILE");
