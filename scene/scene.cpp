@@ -15,7 +15,6 @@
 #include "scene/scene_state.h"
 
 namespace sunder {
-namespace {}  // namespace
 
 /// Hands each command to its instance. Commands without an instance fail at once.
 void Scene::State::take_commands() {

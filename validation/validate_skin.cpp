@@ -244,7 +244,7 @@ void Validation::check_poses(const RowReader& reader) {
         deviation_over_time(*source_character_, points.bind(), differences,
                             report_.posed.front().sample_count, options_.times_per_clip);
   check_deviation(reader, points, differences, batches, report_,
-                  options_.maximum_deviation * report_.diagonal,
+                  std::min(options_.maximum_deviation, options_.error_deviation) * report_.diagonal,
                   std::min(options_.error_deviation, kErrorLimits * options_.maximum_deviation) *
                       report_.diagonal,
                   *findings_);

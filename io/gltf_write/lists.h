@@ -5,10 +5,11 @@
 #include <span>
 #include <utility>
 
-#include "io/gltf/parse_json.h"
+#include "io/gltf/glb.h"
 
 namespace sunder::gltf {
 
+/// A JSON array of floats, each as the double of the same value.
 inline Json numbers_of(std::span<const float> values) {
   Json array = Json::array();
   for (const float value : values) array.push_back(static_cast<double>(value));
@@ -17,8 +18,7 @@ inline Json numbers_of(std::span<const float> values) {
 
 /// @return the index of the new entry. Makes the list if the document has none.
 inline Index append(Json& document, const char* list_name, Json entry) {
-  Json& list = document[list_name];
-  if (list.is_null()) list = Json::array();
+  Json& list = list_of(document, list_name);
   list.push_back(std::move(entry));
   return static_cast<Index>(list.size() - 1);
 }

@@ -58,6 +58,8 @@ TEST(ValidateSkin, a_large_deviation_is_an_error_and_a_small_one_a_warning) {
   EXPECT_EQ(severity().first, Severity::warning);
   options.error_deviation = 0.99 * share_of_diagonal;
   EXPECT_EQ(severity().first, Severity::error);
+  options.maximum_deviation = 2 * share_of_diagonal;
+  EXPECT_EQ(severity().first, Severity::error) << "errors may begin below the limit of warnings";
   options.error_deviation = 100;
   options.maximum_deviation = 0.099 * share_of_diagonal;
   EXPECT_EQ(severity().first, Severity::error) << "more than ten times the limit";

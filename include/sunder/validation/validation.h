@@ -61,7 +61,7 @@ struct ValidationOptions {
   /// Deviations above this are reported; share of the diagonal of the source's box.
   double maximum_deviation = 1e-3;
   /// A deviation above this share of the diagonal, or above ten times maximum_deviation, is an
-  /// error; a smaller one is a warning.
+  /// error; a smaller one above maximum_deviation is a warning.
   double error_deviation = 1e-2;
   LimitsFrom limits_from = LimitsFrom::none;
   double clip_margin = 0.0872664625997165;  ///< Radians, for LimitsFrom::clips.
