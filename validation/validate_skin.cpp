@@ -1,3 +1,4 @@
+#include <sunder/skinning/pose.h>
 #include <sunder/validation/validation.h>
 
 #include <algorithm>
@@ -9,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "core/internal/or_throw.h"
 #include "validation/checks/attribute_checks.h"
 #include "validation/checks/certificate_checks.h"
 #include "validation/checks/cracks.h"
@@ -133,6 +135,7 @@ class Validation {
   }
   void bring_to_scale();
   void match();
+  SurfaceMatches match_to_source(const Skinned& target, const MatchLimits& limits) const;
   void check_stored_weights(const RowReader& reader);
   void check_weights(const RowReader& reader);
   void check_poses(const RowReader& reader);
@@ -165,13 +168,31 @@ void Validation::bring_to_scale() {
   target_.emplace(*target_character_, options_.stored_target);
 }
 
+SurfaceMatches Validation::match_to_source(const Skinned& target, const MatchLimits& limits) const {
+  SurfaceMatches matches = match_surfaces(target.surface, source_->surface, limits);
+  keep_to_meshes(*source_, target, limits, matches);
+  return matches;
+}
+
+/// Two characters that move alike may have bind poses of their own: a skeleton of rigid parts has
+/// none, and what it then gets depends on the number of skins. Vertices that find nothing are
+/// therefore looked for in the source's bind pose too.
 void Validation::match() {
   const MatchLimits limits{kMatchDistance * source_->surface.diagonal, kMatchCosine, false};
   if (replayed_ && has_vertices_of(*target_character_, replayed_->character())) {
     matches_ = matches_from_births(*replayed_);
   } else {
-    matches_ = match_surfaces(target_->surface, source_->surface, limits);
-    keep_to_meshes(*source_, *target_, limits, matches_);
+    matches_ = match_to_source(*target_, limits);
+    if (const std::size_t unmatched = unaccepted(*target_, matches_).size(); unmatched > 0) {
+      Skinned driven(
+          *target_character_, options_.stored_target,
+          driven_bind_pose(or_throw(bind_pose(*source_character_)), *target_character_, bones_));
+      SurfaceMatches matches = match_to_source(driven, limits);
+      if (unaccepted(driven, matches).size() < unmatched) {
+        target_.emplace(std::move(driven));
+        matches_ = std::move(matches);
+      }
+    }
   }
   const SurfaceMatches back = match_surfaces(source_->surface, target_->surface, limits);
   Places missing = unaccepted(*source_, back);

@@ -152,9 +152,13 @@ double unit_at_rest(const Character& character) {
 }  // namespace
 
 Skinned::Skinned(const Character& of, std::span<const StoredInfluences> stored_influences)
+    : Skinned(of, stored_influences, or_throw(bind_pose(of))) {}
+
+Skinned::Skinned(const Character& of, std::span<const StoredInfluences> stored_influences,
+                 const ModelPose& pose)
     : character(of),
       stored(stored_influences),
-      surface(make_bind_surface(of)),
+      surface(make_bind_surface(of, pose)),
       graph(make_point_graph(surface)),
       rest_diagonal(diagonal_at_rest(of)),
       metres_per_bind_unit(unit_at_rest(of)) {

@@ -55,8 +55,12 @@ struct Skinned {
   /// centimetres to metres, 1 in most models.
   double metres_per_bind_unit = 1.0;
 
+  /// The surface in the character's own bind pose.
   /// @param of  outlives this, as do the stored influences.
   Skinned(const Character& of, std::span<const StoredInfluences> stored_influences);
+  /// The surface in a pose.
+  Skinned(const Character& of, std::span<const StoredInfluences> stored_influences,
+          const ModelPose& pose);
 
   [[nodiscard]] std::span<const Influence> influences(Index mesh, Index vertex) const {
     return character.meshes[mesh].weights.of(vertex);

@@ -122,7 +122,11 @@ std::vector<std::vector<Affine3d>> bind_palettes(const Character& character,
 }
 
 BindSurface make_bind_surface(const Character& character) {
-  const auto palettes = bind_palettes(character, or_throw(bind_pose(character)));
+  return make_bind_surface(character, or_throw(bind_pose(character)));
+}
+
+BindSurface make_bind_surface(const Character& character, const ModelPose& pose) {
+  const auto palettes = bind_palettes(character, pose);
   BindSurface surface;
   std::size_t vertices = 0, triangles = 0;
   for (const Mesh& mesh : character.meshes) {

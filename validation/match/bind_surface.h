@@ -9,7 +9,8 @@
 
 namespace sunder::validation {
 
-/// All meshes of a character as one surface in model space, in the pose in which they were bound.
+/// All meshes of a character as one surface in model space, in one pose, mostly that in which they
+/// were bound.
 /// Vertices and triangles of all meshes are numbered one after the other.
 struct BindSurface {
   std::vector<Index> first_vertex = {0};    ///< Per mesh, and the end.
@@ -34,9 +35,12 @@ struct BindSurface {
   [[nodiscard]] Index mesh_of_triangle(Index triangle) const;
 };
 
+/// In the character's own bind pose, or in another one.
 /// @param character  indices in range and finite; weights need not be normalised.
+/// @param pose  one matrix per bone.
 /// O(vertices + triangles), allocates.
 [[nodiscard]] BindSurface make_bind_surface(const Character& character);
+[[nodiscard]] BindSurface make_bind_surface(const Character& character, const ModelPose& pose);
 
 /// model_from_bind at bind, per skin and slot: bind_pose() times bone_from_bind. The identity but
 /// for rounding where all skins bind a bone alike.

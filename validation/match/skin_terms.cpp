@@ -10,6 +10,15 @@
 
 namespace sunder::validation {
 
+ModelPose driven_bind_pose(const ModelPose& source_bind, const Character& target,
+                           const BoneMatch& bones) {
+  ModelPose pose = or_throw(bind_pose(target));
+  for (Index bone = 0; bone < pose.model_from_bone.size(); ++bone)
+    if (const Index counterpart = bones.source_of_target[bone]; counterpart != kNone)
+      pose.model_from_bone[bone] = source_bind.model_from_bone[counterpart];
+  return pose;
+}
+
 DrivenSkins make_driven_skins(const Character& source, const Character& target,
                               const BoneMatch& bones) {
   DrivenSkins skins;
@@ -20,17 +29,11 @@ DrivenSkins make_driven_skins(const Character& source, const Character& target,
     for (std::size_t i = 0; i < palettes[skin].size(); ++i)
       slots.push_back({source.skins[skin].bones[i], palettes[skin][i]});
   }
-  const ModelPose own_bind = or_throw(bind_pose(target));
-  for (const Skin& skin : target.skins) {
+  const auto driven = bind_palettes(target, driven_bind_pose(skins.bind, target, bones));
+  for (std::size_t skin = 0; skin < target.skins.size(); ++skin) {
     auto& slots = skins.of_target.emplace_back();
-    for (std::size_t i = 0; i < skin.bones.size(); ++i) {
-      const Index bone = skin.bones[i], counterpart = bones.source_of_target[bone];
-      const Affine3d& model_from_bone = counterpart != kNone
-                                            ? skins.bind.model_from_bone[counterpart]
-                                            : own_bind.model_from_bone[bone];
-      slots.push_back({bones.driver_of_target[bone],
-                       multiply(model_from_bone, Affine3d(skin.bone_from_bind[i].cast<double>()))});
-    }
+    for (std::size_t i = 0; i < driven[skin].size(); ++i)
+      slots.push_back({bones.driver_of_target[target.skins[skin].bones[i]], driven[skin][i]});
   }
   return skins;
 }

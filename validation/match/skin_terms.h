@@ -23,6 +23,11 @@ struct DrivenSkins {
   std::vector<std::vector<DrivenSlot>> of_source, of_target;  ///< Per skin and slot.
 };
 
+/// The bind pose of the source on the target's bones; those without a counterpart keep their own.
+/// O(bones), allocates.
+[[nodiscard]] ModelPose driven_bind_pose(const ModelPose& source_bind, const Character& target,
+                                         const BoneMatch& bones);
+
 /// O(slots), allocates.
 [[nodiscard]] DrivenSkins make_driven_skins(const Character& source, const Character& target,
                                             const BoneMatch& bones);
