@@ -34,6 +34,34 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
   return last[b.size()];
 }
 
+bool is_near(std::size_t edits, const std::string& a, const std::string& b) {
+  return 3 * edits <= std::max(a.size(), b.size());
+}
+
+/// The words of a name in small letters: "Skeleton_neck_joint_1", "LeftUpLeg", "b_Tail02_013".
+std::vector<std::string> words_of(std::string_view name) {
+  std::vector<std::string> words;
+  bool is_open = false, was_small = false;
+  for (const char c : name) {
+    const auto letter = static_cast<unsigned char>(c);
+    const bool is_letter = std::isalpha(letter) != 0 || letter >= 0x80;
+    if (is_letter && (!is_open || (was_small && std::isupper(letter) != 0))) words.emplace_back();
+    if (is_letter) words.back() += static_cast<char>(std::tolower(letter));
+    is_open = is_letter;
+    was_small = std::islower(letter) != 0;
+  }
+  return words;
+}
+
+/// Whether a mistyped name may stand for one word of a name.
+bool is_near_a_word(const std::string& key, std::string_view name) {
+  constexpr std::size_t kShortest = 3;  // of shorter words each is near to each
+  return key.size() >= kShortest &&
+         std::ranges::any_of(words_of(name), [&](const std::string& word) {
+           return word.size() >= kShortest && is_near(edit_distance(key, word), key, word);
+         });
+}
+
 }  // namespace
 
 std::vector<std::string> nearest_names(const std::string& wanted,
@@ -46,7 +74,8 @@ std::vector<std::string> nearest_names(const std::string& wanted,
     const bool is_part =
         key.size() > 2 && (other.find(key) != std::string::npos ||
                            (other.size() > 2 && key.find(other) != std::string::npos));
-    if (is_part || 3 * edits <= std::max(key.size(), other.size())) near.emplace_back(edits, name);
+    if (is_part || is_near(edits, key, other) || is_near_a_word(key, without_namespace(name)))
+      near.emplace_back(edits, name);
   }
   std::ranges::stable_sort(near, {}, &std::pair<std::size_t, std::string>::first);
   std::vector<std::string> result;

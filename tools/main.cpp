@@ -10,6 +10,7 @@
 #endif
 
 #include "tools/command_line/command_line.h"
+#include "tools/command_line/unknown_words.h"
 #include "tools/messages/lines.h"
 #include "tools/messages/messages.h"
 
@@ -18,6 +19,12 @@ namespace {
 
 /// Prints help to stdout and errors to stderr.
 ExitCode refuse(const CLI::App& app, const CLI::ParseError& error) {
+  if (error.get_exit_code() != static_cast<int>(CLI::ExitCodes::Success))
+    if (const std::string unknown = unknown_word(app); !unknown.empty()) {
+      print_error(unknown);
+      print_error("Run with --help for more information.");
+      return ExitCode::usage;
+    }
   std::ostringstream out, err;
   const int code = app.exit(error, out, err);
   print_text(out.str());

@@ -37,6 +37,15 @@ void note_other_scenes(Reading& reading) {
         static_cast<std::uint32_t>(count - 1));
 }
 
+[[noreturn]] void refuse_without_triangles(const Json& document) {
+  const std::size_t clips = count_of(document, "animations");
+  if (count_of(document, "meshes") > 0)
+    refuse(StatusCode::empty_input, kNone, "the scene has no triangles");
+  if (clips == 0) refuse(StatusCode::empty_input, kNone, "the file has no mesh");
+  refuse(StatusCode::empty_input, kNone, "the file has %zu clips but no mesh that they move",
+         clips);
+}
+
 /// For the decoded data of files of this size; the rest is for the files and what is needed for a
 /// moment.
 std::uint64_t memory_limit(const LoadOptions& options, std::uint64_t file_bytes) {
@@ -91,8 +100,7 @@ LoadedCharacter read(std::vector<std::byte> content, const std::filesystem::path
   note_other_scenes(reading);
   NodeSkeleton nodes = read_skeleton(reading);
   ReadMeshes meshes = read_meshes(reading, nodes, *character);
-  if (character->meshes.empty())
-    refuse(StatusCode::empty_input, kNone, "the scene has no triangles");
+  if (character->meshes.empty()) refuse_without_triangles(document->json);
   note_images(reading);
   character->clips = read_animations(reading, nodes, meshes.morphs_of_node);
   document->node_of_bone.assign(nodes.skeleton.bones.size(), kNone);

@@ -46,9 +46,11 @@ Result<Format> format_of(std::string_view file_name) {
   if (format != kFormats.end()) return *format;
   std::string known = "glb, gltf";
   for (const Format& one : kFormats) known += ", " + std::string(one.extension);
+  const std::string kind =
+      extension.empty() ? "files without an extension" : "." + extension.substr(0, 20) + " files";
   return Status::failure(StatusCode::unsupported_format, kNone,
-                         "%.80s: no reader for .%.20s files; there are readers for %s",
-                         std::string(file_name).c_str(), extension.c_str(), known.c_str());
+                         "%.80s: no reader for %s; there are readers for %s",
+                         std::string(file_name).c_str(), kind.c_str(), known.c_str());
 }
 
 Status check_start(const Format& format, std::string_view first_kilobyte,

@@ -33,6 +33,15 @@ TEST(NearestNames, namespaces_do_not_count) {
   EXPECT_EQ(without_namespace("Head"), "Head");
 }
 
+TEST(NearestNames, a_word_of_a_name_is_enough) {
+  const std::vector<std::string> bones = {"Skeleton_neck_joint_1", "LeftUpLeg", "b_Tail02_013",
+                                          "Arm.L"};
+  EXPECT_THAT(nearest_names("Nek", bones), ElementsAre("Skeleton_neck_joint_1"));
+  EXPECT_THAT(nearest_names("tial", bones), ElementsAre("b_Tail02_013"));
+  EXPECT_THAT(nearest_names("Lge", bones), ElementsAre("LeftUpLeg"));
+  EXPECT_THAT(nearest_names("Wing", bones), IsEmpty());
+}
+
 TEST(NearestNames, are_listed_as_one_says_them) {
   const std::vector<std::string> names = {"Walk", "Run", "Jump"};
   EXPECT_EQ(listed_names({}), "");

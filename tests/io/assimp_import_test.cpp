@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -206,8 +207,11 @@ TEST(AssimpImport, RefusesWhatIsNotItsBusiness) {
   EXPECT_EQ(import_as_glb(folder.path() / "absent.fbx", {}).error().code(),
             StatusCode::file_not_found);
   fs::create_directory(folder.path() / "folder.fbx");
-  EXPECT_EQ(import_as_glb(folder.path() / "folder.fbx", {}).error().code(),
-            StatusCode::file_unreadable);
+  for (const fs::path& of_models : {folder.path() / "folder.fbx", folder.path()}) {
+    const Status error = import_as_glb(of_models, {}).error();
+    EXPECT_EQ(error.code(), StatusCode::file_unreadable);
+    EXPECT_THAT(error.text(), testing::HasSubstr("is a folder"));
+  }
   EXPECT_EQ(
       import_as_glb(folder.write("points.obj", std::string_view("v 0 0 0\nv 1 0 0\np 1 2\n")), {})
           .error()

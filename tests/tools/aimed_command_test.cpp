@@ -49,6 +49,23 @@ TEST_F(AimedCommand, the_saved_log_is_plain_and_gives_the_same_file) {
   EXPECT_EQ(bytes("aimed.glb"), bytes("again.glb"));
 }
 
+TEST_F(AimedCommand, lengths_have_units_shares_per_cent_and_materials_indices) {
+  const auto result_of = [](const std::string& slash, const std::string& sever) {
+    const CommandResult result =
+        tear({"--slash", slash, "--sever", sever, "--save-log", path("units.json"), "--force"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return std::pair(bytes("units.json"), bytes("aimed.glb"));
+  };
+  const auto plain =
+      result_of("Trunk2@0.25,wall_depth=0.01,wall_material=1", "Trunk3@0.5,cap_material=0");
+  EXPECT_EQ(plain,
+            result_of("Trunk2@25%,wall_depth=10mm,wall_material=1", "Trunk3@50%,cap_material=0"));
+  EXPECT_EQ(plain,
+            result_of("Trunk2@0.25,wall_depth=1 cm,wall_material=1", "Trunk3@0.5,cap_material=0"));
+  EXPECT_NE(plain,
+            result_of("Trunk2@0.25,wall_depth=0.01,wall_material=0", "Trunk3@0.5,cap_material=1"));
+}
+
 TEST_F(AimedCommand, faults_name_the_option) {
   const auto expect_refusal = [](const std::vector<std::string>& options, const char* text) {
     const CommandResult result = tear(options);
@@ -70,6 +87,12 @@ TEST_F(AimedCommand, faults_name_the_option) {
                    "is no pose; expected rest, bind or CLIP@TIME");
   expect_refusal({"--sever", "Trunk3@0.5,pose=bind"}, "'pose' is no field; give it as --pose");
   expect_refusal({"--slash", "Trunk3@0.5,turn=nan"}, "turn: expected a number, found string");
+  expect_refusal({"--slash", "Trunk3@0.5,turn=10mm"}, "turn: expected a number, found string");
+  expect_refusal({"--slash", "Trunk3@150%"}, "--slash Trunk3@150%: at: expected a share");
+  expect_refusal({"--sever", "Trunk3@0.5,cap_material=leaf"},
+                 "cap_material: expected the index of a material");
+  expect_refusal({"--slash", "Trunk3@0.5,wall_depth=1mm,wall_material=99"},
+                 "material 99 does not exist; the source has");
   expect_refusal({"--slash", "Trunk3@0.5,width=0.2w"},
                  "width: '0.2w': expected metres; only length, depth and radius may be in widths");
 }

@@ -156,7 +156,7 @@ class CertifiedFiles : public CertifiedWeightsCommand,
     EXPECT_LE(plain.exit_code, 1) << plain.err;
     const CommandResult pruned =
         run_sunder({"tear", file, "--ops", cut, "-o", path("pruned.glb"), "--max-error",
-                    number(error), "--limits", limits, "--report", "-"});
+                    number(error) + "m", "--limits", limits, "--report", "-"});
     EXPECT_LE(pruned.exit_code, 1) << pruned.err;
     EXPECT_THAT(pruned.err, HasSubstr("no pose moves a vertex by more than"));
     const auto a = load_character(path("plain.glb")), b = load_character(path("pruned.glb"));
@@ -256,15 +256,15 @@ TEST_F(CertifiedWeightsCommand, a_larger_error_takes_fewer_influences_and_bytes)
 TEST_F(CertifiedWeightsCommand, lengths_have_units) {
   const std::string operations = write("a.json", kOneTear);
   std::vector<std::byte> first;
-  for (const char* const length : {"0.001", "1mm", "0.1cm", "1000 um", "1e-3m"}) {
+  for (const char* const length : {"0.001m", "1mm", "0.1cm", "1000 um", "1e-3m"}) {
     const CommandResult result = run_sunder(
         {"tear", model(), "--ops", operations, "-o", path("u.glb"), "--max-error", length});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     if (first.empty()) first = bytes("u.glb");
     EXPECT_EQ(bytes("u.glb"), first) << length;
   }
-  for (const char* const bad :
-       {"", "mm", "-1mm", "-0", "nan", "inf", "1e999", "0.1km", "1mmm", "0,1mm", "0x1", "1  mm"}) {
+  for (const char* const bad : {"", "0.5", "mm", "-1mm", "-0", "nan", "inf", "1e999", "0.1km",
+                                "1mmm", "0,1mm", "0x1", "1  mm"}) {
     const CommandResult result = run_sunder(
         {"tear", model(), "--ops", operations, "-o", path("bad.glb"), "--max-error", bad});
     EXPECT_EQ(result.exit_code, 2) << bad;

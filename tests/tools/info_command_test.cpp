@@ -38,6 +38,35 @@ TEST_F(InfoCommand, a_wrong_command_line_exits_with_2) {
   EXPECT_FALSE(exists("x.glb"));
 }
 
+TEST_F(InfoCommand, unknown_words_are_named_with_what_they_may_stand_for) {
+  const auto error_of = [](const std::vector<std::string>& arguments) {
+    const CommandResult result = run_sunder(arguments);
+    EXPECT_EQ(result.exit_code, 2) << result.err;
+    EXPECT_THAT(result.out, IsEmpty());
+    return result.err.substr(0, result.err.find('\n'));
+  };
+  EXPECT_EQ(error_of({"taer", "a.glb"}), "sunder has no verb 'taer'; did you mean 'tear'?");
+  EXPECT_THAT(error_of({"sew"}), HasSubstr("no verb 'sew'; its verbs: 'info', 'picture', "));
+  EXPECT_EQ(error_of({"--verison"}), "sunder has no option '--verison'; did you mean '--version'?");
+  EXPECT_EQ(error_of({"tear", model(), "--servr", "Neck", "-o", path("x.glb")}),
+            "sunder tear has no option '--servr'; did you mean '--sever'?");
+  EXPECT_EQ(error_of({"info", model(), "--xyz=1"}), "sunder info has no option '--xyz'");
+  EXPECT_EQ(error_of({"info", model(), "more"}), "sunder info: one argument too many: 'more'");
+}
+
+TEST_F(InfoCommand, a_model_that_nothing_bends_is_said_to_be_static) {
+  EXPECT_THAT(run_sunder({"info", model()}).out, testing::Not(HasSubstr("static  ")));
+  const std::string still = write("still.gltf", R"({"asset": {"version": "2.0"},
+    "nodes": [{"mesh": 0}], "scenes": [{"nodes": [0]}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+    "buffers": [{"byteLength": 36, "uri":
+      "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}]})");
+  EXPECT_THAT(run_sunder({"info", still}).out,
+              HasSubstr("static     no clips, and no skin of several bones"));
+}
+
 TEST_F(InfoCommand, info_counts_the_parts_of_a_model) {
   const CommandResult result = run_sunder({"info", model(), "--json"});
   ASSERT_EQ(result.exit_code, 0) << result.err;

@@ -33,12 +33,13 @@ void add_maximum_error(CLI::App& verb, std::optional<MaximumError>& wanted,
               "--max-error",
               [&wanted](const std::string& text) { wanted = MaximumError{*parse_length(text)}; },
               "Write as few influences and bits as keep every vertex within this distance of the "
-              "unpruned skin in every pose: 0.1mm, 1cm, or metres")
+              "unpruned skin in every pose: 0.1mm, 20um, 1cm")
           ->check(CLI::Validator(
               [](const std::string& text) {
-                return parse_length(text)
-                           ? std::string()
-                           : "'" + text + "' is no length; expected 0.1mm, 1cm, 20um or metres";
+                return parse_length(text) ? std::string()
+                                          : "'" + text +
+                                                "' is no length; expected a number and its unit: "
+                                                "0.1mm, 20um, 1cm, 0.02m";
               },
               ""))
           ->type_name("LENGTH");

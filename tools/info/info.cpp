@@ -162,6 +162,9 @@ void add_materials_and_clips(const Json& info, Lines& lines) {
     lines.add(printed("clip %zu     '%s': %.4g s, %zu channels", i,
                       text(info["clips"][i]["name"]).c_str(), number(info["clips"][i]["duration"]),
                       count(info["clips"][i]["channels"])));
+  const auto is_of_one_bone = [](const Json& skin) { return count(skin["bones"]) <= 1; };
+  if (info["clips"].empty() && std::ranges::all_of(info["skins"], is_of_one_bone))
+    lines.add("static     no clips, and no skin of several bones: nothing bends it");
 }
 
 /// The same as text.

@@ -2,6 +2,9 @@
 
 #include <sunder/io/operation_log.h>
 
+#include <algorithm>
+#include <charconv>
+#include <iterator>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -9,6 +12,7 @@
 
 #include "tools/messages/json.h"
 #include "tools/model/name_at.h"
+#include "tools/written_weights/length.h"
 
 namespace sunder::tools {
 namespace {
@@ -22,10 +26,26 @@ std::vector<std::string> split(const std::string& text, char separator) {
   return parts;
 }
 
-/// A value as the log has it.
-Json value_json(const std::string& text) {
+/// The index of a material, which logs have as an integer; another text as it is.
+Json index_json(const std::string& text) {
+  std::uint32_t index = 0;
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, index);
+  return error == std::errc() && rest == end ? Json(index) : Json(text);
+}
+
+bool is_length(const std::string& key) {
+  constexpr const char* kLengths[] = {"length",     "depth",    "radius",         "width",
+                                      "wall_depth", "lip_roll", "chord_tolerance"};
+  return std::ranges::find(kLengths, key) != std::end(kLengths);
+}
+
+/// The value of a field as the log has it.
+Json value_json(const std::string& key, const std::string& text) {
+  if (key.ends_with("_material")) return index_json(text);
   if (text == "true" || text == "false") return text == "true";
   if (const auto number = number_in(text)) return *number;
+  if (const auto metres = parse_length(text); metres && is_length(key)) return *metres;
   if (text.ends_with('w'))
     if (const auto widths = number_in(std::string_view(text).substr(0, text.size() - 1)))
       return {{"widths", *widths}};
@@ -40,10 +60,18 @@ Json value_json(const std::string& text) {
   return direction;
 }
 
+/// "0.4" or "40%".
+std::optional<double> share_in(std::string_view text) {
+  if (!text.ends_with('%')) return number_in(text);
+  const std::optional<double> percent = number_in(text.substr(0, text.size() - 1));
+  return percent ? std::optional(*percent / 100) : std::nullopt;
+}
+
 /// A name and the number behind its last '@'; the whole text if there is none.
-std::pair<std::string, std::optional<double>> name_and_number(const std::string& text) {
+std::pair<std::string, std::optional<double>> name_and_number(
+    const std::string& text, std::optional<double> (*read)(std::string_view) = number_in) {
   const auto [name, at] = split_name_at(text);
-  const std::optional<double> number = at ? number_in(*at) : std::nullopt;
+  const std::optional<double> number = at ? read(*at) : std::nullopt;
   return number ? std::pair(name, number) : std::pair(text, number);
 }
 
@@ -70,7 +98,7 @@ Status add_field(const std::string& field, Json& operation) {
     return Status::failure(StatusCode::malformed_file, kNone, "'%.60s' is given twice",
                            key.c_str());
   const Json value =
-      equals == std::string::npos ? Json(true) : value_json(field.substr(equals + 1));
+      equals == std::string::npos ? Json(true) : value_json(key, field.substr(equals + 1));
   if (value.is_object() &&
       (key == "width" || key == "wall_depth" || key == "lip_roll" || key == "chord_tolerance"))
     return Status::failure(StatusCode::malformed_file, kNone,
@@ -86,7 +114,7 @@ Status add_field(const std::string& field, Json& operation) {
 Result<AimedOperation> parse_aimed_option(const std::string& kind, const std::string& text,
                                           const std::optional<std::string>& pose) {
   const std::vector<std::string> fields = split(text, ',');
-  const auto [bone, share] = name_and_number(fields.front());
+  const auto [bone, share] = name_and_number(fields.front(), share_in);
   Json operation = {{"op", kind}};
   operation[kind == "sever" ? "bone" : "around"] = bone;
   if (share) operation["at"] = *share;

@@ -96,7 +96,12 @@ ExitCode choose_influences(TearRun& run) {
   const std::optional<MaximumError>& wanted = run.request.maximum_error;
   if (!wanted) {
     const Result<PruningLoss> loss = measure_pruning(run.model, run.loaded, run.request.save);
-    if (!loss) return complain(run.request.model.string(), loss.error(), ExitCode::internal_error);
+    if (!loss)
+      return complain(run.request.model.string(), loss.error(),
+                      // An operation has named a material that the file does not have.
+                      loss.error().code() == StatusCode::index_out_of_range
+                          ? ExitCode::usage
+                          : ExitCode::internal_error);
     run.pruning = *loss;
     return ExitCode::ok;
   }

@@ -8,7 +8,7 @@ namespace sunder::tools {
 namespace {
 
 constexpr std::pair<std::string_view, double> kLengthUnits[] = {
-    {"", 1.0}, {"m", 1.0}, {"cm", 1e-2}, {"mm", 1e-3}, {"um", 1e-6}};
+    {"m", 1.0}, {"cm", 1e-2}, {"mm", 1e-3}, {"um", 1e-6}};
 
 }  // namespace
 
