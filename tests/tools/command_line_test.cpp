@@ -100,7 +100,7 @@ TEST(CommandLine, help_and_manual_and_completions_have_every_option) {
   const std::string zsh = run_sunder({"completions", "zsh"}).out;
   const std::string bash = run_sunder({"completions", "bash"}).out;
   for (const ListedVerb& verb : all_verbs()) {
-    std::vector<std::string> arguments = {"--help"};
+    std::vector<std::string> arguments = {"--help-all"};
     if (!verb.name.empty()) arguments.insert(arguments.begin(), verb.name);
     const std::string help = run_sunder(arguments).out;
     const std::size_t section = verb.name.empty() ? 0 : manual.find(".SS \"sunder " + verb.name);
@@ -136,6 +136,21 @@ std::string save(const test::TemporaryFolder& folder, const std::string& name,
   const std::string file = (folder.path() / name).string();
   std::ofstream(file) << text;
   return file;
+}
+
+TEST(CommandLine, help_is_short_and_says_that_there_is_more) {
+  for (const ListedVerb& verb : all_verbs()) {
+    if (verb.name.empty()) continue;
+    const std::string help = run_sunder({verb.name, "--help"}).out;
+    EXPECT_LE(std::ranges::count(help, '\n'), 60) << verb.name;
+    std::size_t listed = 0;
+    for (const ListedOption& option : verb.options)
+      listed += help.find("  " + option.names.front()) != std::string::npos ? 1 : 0;
+    const std::regex counted(R"((\d+) options, listed by --help-all)");
+    for (std::sregex_iterator line(help.begin(), help.end(), counted), end; line != end; ++line)
+      listed += std::stoul((*line)[1]);
+    EXPECT_EQ(listed, verb.options.size()) << help;
+  }
 }
 
 TEST(CommandLine, the_manual_is_valid) {

@@ -1,11 +1,13 @@
 #include "tools/command_line/command_line.h"
 
+#include <memory>
 #include <string>
 
 #include "tools/command_line/completions.h"
 #include "tools/command_line/listed_options.h"
 #include "tools/command_line/manual.h"
 #include "tools/command_line/options.h"
+#include "tools/command_line/short_help.h"
 #include "tools/messages/lines.h"
 
 namespace sunder::tools {
@@ -46,6 +48,8 @@ void describe_command(CLI::App& app) {
   app.name("sunder");
   app.set_version_flag("--version", kVersion, "Print the version and exit");
   app.require_subcommand(1);
+  app.formatter(std::make_shared<ShortHelp>());
+  app.set_help_all_flag("--help-all", "Print help with all options and exit");
   app.footer(kExitCodes);
 }
 
@@ -66,6 +70,8 @@ std::vector<Verb> add_verbs(CLI::App& app, Requests& requests) {
   completions->add_option("SHELL", requests.shell, "bash, zsh or fish")
       ->required()
       ->check(CLI::IsMember({"bash", "zsh", "fish"}));
+  for (CLI::App* const verb : app.get_subcommands([](const CLI::App*) { return true; }))
+    shorten_help(*verb);
   verbs.push_back({completions, [&] { return print(completions_for(requests.shell, app)); }});
   return verbs;
 }

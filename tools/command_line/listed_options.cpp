@@ -42,7 +42,8 @@ ListedOption list_option(const CLI::Option& option) {
 ListedVerb list_verb(const CLI::App& app, const std::string& name) {
   ListedVerb listed{name, app.get_description(), app.get_footer(), {}, {}};
   for (const CLI::Option* const option : app.get_options()) {
-    if (option->get_group().empty()) continue;  // Hidden.
+    if (option->get_group().empty()) continue;                        // Hidden.
+    if (option == app.get_help_all_ptr() && !name.empty()) continue;  // Listed of the command.
     (option->get_positional() ? listed.positionals : listed.options)
         .push_back(list_option(*option));
   }
