@@ -54,6 +54,8 @@ TEST_F(TearMessages, one_line_per_operation_says_what_and_where) {
                     "0\\.[0-9]+ m long, [0-9.]+ ms"));
   EXPECT_THAT(result.err, ContainsRegex("/operations/3: cut at .*, 2 pieces, [0-9.]+ ms"));
   EXPECT_THAT(result.err, ContainsRegex("/operations/7: undo: undone, "));
+  EXPECT_THAT(result.err, ContainsRegex(": drill at .* crossed, [0-9.e-]+ m2 removed"));
+  EXPECT_THAT(result.err, Not(HasSubstr(" 0 m long")));
 }
 
 TEST_F(TearMessages, quiet_says_nothing_but_errors_and_misses) {

@@ -21,8 +21,9 @@ std::string operation_line(const OperationOutcome& outcome, const std::optional<
             (place->bone.empty() ? "" : " on '" + place->bone + "'");
   const TearReport& tear = outcome.tear;
   if (opens_surface(outcome)) {
-    line += ": " + counted(tear.faces_crossed, "face", "faces") + " crossed, " +
-            printed("%.4g m long", tear.length_posed);
+    line += ": " + counted(tear.faces_crossed, "face", "faces") + " crossed";
+    // A bore takes surface away and opens no line.
+    if (tear.length_posed > 0) line += printed(", %.4g m long", tear.length_posed);
     if (tear.area_removed_posed > 0) line += printed(", %.4g m2 removed", tear.area_removed_posed);
     if (!tear.pieces.empty()) line += ", " + counted(tear.pieces.size(), "piece", "pieces");
     if (tear.caps > 0) line += ", " + counted(tear.caps, "cap", "caps");
