@@ -50,9 +50,8 @@ InfluenceForm influence_form(const SaveOptions& options, std::uint32_t mesh, con
   form.format = options.weights_of_mesh.empty() ? options.weights : options.weights_of_mesh[mesh];
   form.maximum = options.maximum_influences;
   if (form.maximum == kAllInfluences) form.maximum = 0;
-  if (options.maximum_influences == 0 && source != nullptr &&
-      most_influences(source->weights) <= kInfluencesOfASet)
-    form.maximum = kInfluencesOfASet;
+  if (options.maximum_influences == 0 && source != nullptr)
+    form.maximum = std::max(kInfluencesOfASet, most_influences(source->weights));
   return form;
 }
 

@@ -139,7 +139,8 @@ CLI::App* add_tear(CLI::App& app, TearRequest& request) {
           [&request](const std::string& name) {
             request.save.maximum_influences = maximum_influences(name);
           },
-          "Influences written per vertex: source (4 where the source has no more, else all), the 4 "
+          "Influences written per vertex: source (as many as the mesh has there, at least 4), the "
+          "4 "
           "or 8 largest, renormalised, or all")
       ->check(CLI::IsMember({"source", "4", "8", "all"}))
       ->default_str("source");
