@@ -136,6 +136,7 @@ class Validation {
   void bring_to_scale();
   void match();
   SurfaceMatches match_to_source(const Skinned& target, const MatchLimits& limits) const;
+  void match_in_bind_pose_of_source(const MatchLimits& limits, std::size_t unmatched);
   void check_stored_weights(const RowReader& reader);
   void check_weights(const RowReader& reader);
   void check_poses(const RowReader& reader);
@@ -175,24 +176,30 @@ SurfaceMatches Validation::match_to_source(const Skinned& target, const MatchLim
 }
 
 /// Two characters that move alike may have bind poses of their own: a skeleton of rigid parts has
-/// none, and what it then gets depends on the number of skins. Vertices that find nothing are
-/// therefore looked for in the source's bind pose too.
+/// none, and what it then gets depends on the number of skins. The target stays in its own bind
+/// pose if no more of its vertices are matched in the source's.
+void Validation::match_in_bind_pose_of_source(const MatchLimits& limits, std::size_t unmatched) {
+  const ModelPose own = or_throw(bind_pose(*target_character_)),
+                  driven = driven_bind_pose(or_throw(bind_pose(*source_character_)),
+                                            *target_character_, bones_);
+  if (std::ranges::equal(own.model_from_bone, driven.model_from_bone,
+                         [](const Affine3d& a, const Affine3d& b) { return a.isApprox(b, 1e-6); }))
+    return;
+  Skinned target(*target_character_, options_.stored_target, driven);
+  SurfaceMatches matches = match_to_source(target, limits);
+  if (unaccepted(target, matches).size() >= unmatched) return;
+  target_.emplace(std::move(target));
+  matches_ = std::move(matches);
+}
+
 void Validation::match() {
   const MatchLimits limits{kMatchDistance * source_->surface.diagonal, kMatchCosine, false};
   if (replayed_ && has_vertices_of(*target_character_, replayed_->character())) {
     matches_ = matches_from_births(*replayed_);
   } else {
     matches_ = match_to_source(*target_, limits);
-    if (const std::size_t unmatched = unaccepted(*target_, matches_).size(); unmatched > 0) {
-      Skinned driven(
-          *target_character_, options_.stored_target,
-          driven_bind_pose(or_throw(bind_pose(*source_character_)), *target_character_, bones_));
-      SurfaceMatches matches = match_to_source(driven, limits);
-      if (unaccepted(driven, matches).size() < unmatched) {
-        target_.emplace(std::move(driven));
-        matches_ = std::move(matches);
-      }
-    }
+    if (const std::size_t unmatched = unaccepted(*target_, matches_).size(); unmatched > 0)
+      match_in_bind_pose_of_source(limits, unmatched);
   }
   const SurfaceMatches back = match_surfaces(source_->surface, target_->surface, limits);
   Places missing = unaccepted(*source_, back);

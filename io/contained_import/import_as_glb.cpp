@@ -42,7 +42,7 @@ Status check_options(const LoadOptions& options) {
 Result<ModelFile> open_model(const fs::path& file, const LoadOptions& options) {
   const std::string name = file.filename().string();
   Result<files::OpenFile> opened = files::open_regular_file(file);
-  if (!opened) return opened.error();  // first, so that a folder is called one
+  if (!opened) return opened.error();  // Before the format: a folder is called one.
   if (const auto format = assimp_import::format_of(name); !format) return format.error();
   if (opened->bytes == 0)
     return Status::failure(StatusCode::empty_input, kNone, "%.200s: the file is empty",

@@ -169,6 +169,7 @@ class Patch {
         before_(*loaded.character),
         source_(*loaded.source),
         options_(options),
+        most_of_source_(most_influences(before_)),
         writer_(draft),
         rig_(draft, character, source_, static_cast<std::uint32_t>(before_.skeleton.bones.size())) {
   }
@@ -262,8 +263,8 @@ class Patch {
     origin.skinned |= has_new_skin(mesh_index);
     for (const std::uint32_t primitive : origin.primitives) rewritten[primitive] = nullptr;
     if (!MeshWriter::has_triangles(mesh)) return;
-    const MeshWriter::Vertices vertices = writer_.add_vertices(
-        mesh, origin, influence_form(options_, mesh_index, &before_.meshes[mesh_index]));
+    const MeshWriter::Vertices vertices =
+        writer_.add_vertices(mesh, origin, influence_form(options_, mesh_index, most_of_source_));
     for (std::uint32_t submesh = 0; submesh < mesh.submeshes.size(); ++submesh) {
       const std::uint32_t indices = writer_.add_indices(mesh, submesh);
       if (indices == kNone) continue;
@@ -335,17 +336,18 @@ class Patch {
   const Character& before_;
   const SourceDocument& source_;
   const SaveOptions& options_;
+  const std::uint32_t most_of_source_;
   MeshWriter writer_;
   AppendedRig rig_;
   std::vector<std::uint32_t> nodes_of_mesh_;  ///< How many nodes use each mesh of the draft.
   std::set<std::uint32_t> without_mesh_;
 };
 
-WrittenInfluences written_of(const Mesh& mesh, const Mesh& source, std::uint32_t index,
-                             const SaveOptions& options) {
+/// @param maximum  influences per vertex; 0: all.
+WrittenInfluences written_of(const Mesh& mesh, std::uint32_t index, std::uint32_t maximum) {
   WrittenInfluences written;
   written.mesh = index;
-  written.maximum = influence_form(options, index, &source).maximum;
+  written.maximum = maximum;
   std::vector<Influence> influences;
   for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
     const auto all = mesh.weights.of(v);
@@ -389,12 +391,14 @@ Result<std::vector<WrittenInfluences>> influences_of_written(const Character& ch
     check_options(options, character.meshes.size());
     check_same_character(character, loaded);
     const std::vector<bool> changed = changed_meshes(character, loaded);
+    const std::uint32_t most_of_source = most_influences(*loaded.character);
     std::vector<WrittenInfluences> written;
     for (const std::uint32_t mesh :
          meshes_to_write(changed, find_unsound(character, loaded, changed))) {
       const Mesh &after = character.meshes[mesh], &before = loaded.character->meshes[mesh];
       if (loaded.source->mesh_origins[mesh].skinned || after.skin != before.skin)
-        written.push_back(written_of(after, before, mesh, options));
+        written.push_back(
+            written_of(after, mesh, influence_form(options, mesh, most_of_source).maximum));
     }
     return written;
   });

@@ -30,6 +30,12 @@ std::uint32_t most_influences(const SkinWeights& weights) {
   return most;
 }
 
+std::uint32_t most_influences(const Character& character) {
+  std::uint32_t most = 0;
+  for (const Mesh& mesh : character.meshes) most = std::max(most, most_influences(mesh.weights));
+  return most;
+}
+
 template <class Weight>
 InfluenceSets<Weight> make_influence_sets(const SkinWeights& weights, std::uint32_t maximum) {
   std::uint32_t most = most_influences(weights);

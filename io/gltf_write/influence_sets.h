@@ -1,6 +1,6 @@
 #pragma once
 
-#include <sunder/core/skin.h>
+#include <sunder/core/character.h>
 
 #include <cstdint>
 #include <vector>
@@ -20,6 +20,7 @@ inline constexpr std::uint32_t kInfluencesOfASet = 4;
 
 /// The number of influences of the vertex that has the most.
 [[nodiscard]] std::uint32_t most_influences(const SkinWeights& weights);
+[[nodiscard]] std::uint32_t most_influences(const Character& character);
 
 /// Prunes the vertices that have more than `maximum` influences (0: none) and, if Weight is an
 /// integer, quantises the weights. Other vertices keep the order of their influences.

@@ -45,13 +45,14 @@ void check_options(const SaveOptions& options, std::size_t mesh_count) {
   for (const WeightFormat format : options.weights_of_mesh) check_format(format);
 }
 
-InfluenceForm influence_form(const SaveOptions& options, std::uint32_t mesh, const Mesh* source) {
+InfluenceForm influence_form(const SaveOptions& options, std::uint32_t mesh,
+                             std::uint32_t most_of_source) {
   InfluenceForm form;
   form.format = options.weights_of_mesh.empty() ? options.weights : options.weights_of_mesh[mesh];
   form.maximum = options.maximum_influences;
   if (form.maximum == kAllInfluences) form.maximum = 0;
-  if (options.maximum_influences == 0 && source != nullptr)
-    form.maximum = std::max(kInfluencesOfASet, most_influences(source->weights));
+  if (options.maximum_influences == 0 && most_of_source != 0)
+    form.maximum = std::max(kInfluencesOfASet, most_of_source);
   return form;
 }
 

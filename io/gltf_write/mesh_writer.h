@@ -19,10 +19,12 @@ struct InfluenceForm {
 };
 
 /// The form that the options ask for.
-/// @param mesh    index of the mesh that is written.
-/// @param source  the mesh as it was loaded; null without a source.
+/// @param mesh            index of the mesh that is written.
+/// @param most_of_source  influences of the vertex of all meshes, as they were loaded, that has the
+///                        most: one limit for all, so that borders of meshes stay together. 0
+///                        without a source.
 [[nodiscard]] InfluenceForm influence_form(const SaveOptions& options, std::uint32_t mesh,
-                                           const Mesh* source);
+                                           std::uint32_t most_of_source);
 
 /// Appends meshes to a draft as accessors.
 class MeshWriter {

@@ -92,7 +92,7 @@ class NewDocument {
     SourceDocument::MeshOrigin form;
     form.skinned = !rigid;
     const MeshWriter::Vertices vertices =
-        meshes_.add_vertices(mesh, form, influence_form(options_, index, nullptr));
+        meshes_.add_vertices(mesh, form, influence_form(options_, index, 0));
 
     Json gltf_mesh = {{"name", mesh.name}, {"primitives", Json::array()}};
     for (Index submesh = 0; submesh < mesh.submeshes.size(); ++submesh) {

@@ -271,6 +271,30 @@ TEST(SaveInfluences, are_four_where_the_source_has_no_more_unless_asked_otherwis
   }
 }
 
+/// Vertices of two meshes on their border have the same influences, and must be pruned alike.
+TEST(SaveInfluences, meshes_of_one_file_have_one_limit) {
+  Character source = strip_with_influences(6);
+  source.meshes.push_back(strip_with_influences(2).meshes[0]);
+  source.meshes[1].name = "other";
+  const TemporaryFolder folder;
+  ASSERT_TRUE(save_glb(folder.path() / "two.glb", source));
+  const auto loaded = load_character(folder.path() / "two.glb");
+  ASSERT_TRUE(loaded.has_value()) << loaded.error().text();
+  Character torn = *loaded->character;
+  ASSERT_EQ(torn.meshes.size(), 2u);
+  for (Mesh& mesh : torn.meshes) mesh.weights = strip_with_influences(9).meshes[0].weights;
+  ASSERT_TRUE(save_glb(folder.path() / "torn.glb", torn, *loaded));
+  const auto again = load_character(folder.path() / "torn.glb");
+  ASSERT_TRUE(again.has_value()) << again.error().text();
+  const auto& meshes = again->character->meshes;
+  EXPECT_EQ(meshes[0].weights, meshes[1].weights);
+  for (std::uint32_t v = 0; v < kStripVertices; ++v) EXPECT_EQ(meshes[0].weights.of(v).size(), 6u);
+  for (const WrittenInfluences& mesh : *written_influences(torn, *loaded)) {
+    EXPECT_EQ(mesh.maximum, 6u);
+    EXPECT_EQ(mesh.vertices_pruned, kStripVertices);
+  }
+}
+
 TEST(SaveInfluences, what_they_lose_is_told_without_writing) {
   const ChangedStrip file = ChangedStrip::with_more(11);
   for (const std::uint32_t maximum : {0u, 4u, 8u, kAllInfluences}) {

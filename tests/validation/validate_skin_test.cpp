@@ -40,6 +40,49 @@ std::pair<Character, Character> tube_and_copy() {
   return {source, target};
 }
 
+/// Two rigid parts that move alike, each attached to its bone: by a skin each, which has no bind
+/// pose, or by one, whose bind pose is not the rest pose.
+Character two_parts(bool have_one_skin) {
+  Character character = make_tube(8, 8, 2);
+  character.skeleton.bones[1].rest.translation = Vec3f(5, 0, 0);
+  character.meshes.push_back(character.meshes[0]);
+  const Vec3f place(0, have_one_skin ? 4.0f : 0.0f, 0);  // of the second part at bind
+  for (Vec3f& position : character.meshes[1].positions) position += place;
+  Skin skin;
+  skin.bone_from_bind = {Affine3f::Identity(), Affine3f::Identity()};
+  skin.bone_from_bind[1].translation() = -place;
+  skin.bones = {0, 1};
+  character.skins = {skin};
+  if (!have_one_skin) {
+    character.skins.push_back(skin);
+    for (Index part = 0; part < 2; ++part) {
+      character.skins[part].bones = {part};
+      character.skins[part].bone_from_bind.resize(1);
+    }
+  }
+  for (Index part = 0; part < 2; ++part) {
+    Mesh& mesh = character.meshes[part];
+    mesh.name = "part" + std::to_string(part);
+    mesh.skin = have_one_skin ? 0 : part;
+    SkinWeights weights;
+    for (Index v = 0; v < mesh.vertex_count(); ++v)
+      weights.append(std::vector<Influence>{{have_one_skin ? part : 0, 1.0f}});
+    mesh.weights = std::move(weights);
+  }
+  return character;
+}
+
+TEST(ValidateSkin, parts_without_a_bind_pose_match_those_of_one_skin) {
+  for (const bool have_one_skin : {false, true}) {
+    const auto report =
+        validate_skin(share(two_parts(have_one_skin)), share(two_parts(!have_one_skin)));
+    ASSERT_TRUE(report) << report.error().text();
+    EXPECT_EQ(report->matching.target_unmatched, 0u);
+    for (const Finding& finding : report->findings)
+      EXPECT_NE(finding.code, "SUNDER_W_DEVIATION") << finding.text;
+  }
+}
+
 TEST(ValidateSkin, a_large_deviation_is_an_error_and_a_small_one_a_warning) {
   const auto [source, target] = tube_and_copy();
   ValidationOptions options;

@@ -139,9 +139,8 @@ CLI::App* add_tear(CLI::App& app, TearRequest& request) {
           [&request](const std::string& name) {
             request.save.maximum_influences = maximum_influences(name);
           },
-          "Influences written per vertex: source (as many as the mesh has there, at least 4), the "
-          "4 "
-          "or 8 largest, renormalised, or all")
+          "Influences written per vertex: source (no more than there, at least 4), the 4 or 8 "
+          "largest, renormalised, or all")
       ->check(CLI::IsMember({"source", "4", "8", "all"}))
       ->default_str("source");
   add_weights_as(*verb, request.save);

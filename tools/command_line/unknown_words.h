@@ -6,8 +6,8 @@
 
 namespace sunder::tools {
 
-/// What to say of the first word of a command line that is neither a verb nor an option, with the
-/// names that it may stand for. Empty if all words were understood.
+/// The error for a command line with an unknown verb or option, or with an argument too many. It
+/// proposes similar names. Empty if each word was understood.
 /// @param app  after parse() has thrown.
 [[nodiscard]] std::string unknown_word(const CLI::App& app);
 

@@ -2,9 +2,7 @@
 
 #include <sunder/io/operation_log.h>
 
-#include <algorithm>
 #include <charconv>
-#include <iterator>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -34,10 +32,13 @@ Json index_json(const std::string& text) {
   return error == std::errc() && rest == end ? Json(index) : Json(text);
 }
 
+bool may_be_in_widths(const std::string& key) {
+  return key == "length" || key == "depth" || key == "radius";
+}
+
 bool is_length(const std::string& key) {
-  constexpr const char* kLengths[] = {"length",     "depth",    "radius",         "width",
-                                      "wall_depth", "lip_roll", "chord_tolerance"};
-  return std::ranges::find(kLengths, key) != std::end(kLengths);
+  return may_be_in_widths(key) || key == "width" || key == "wall_depth" || key == "lip_roll" ||
+         key == "chord_tolerance";
 }
 
 /// The value of a field as the log has it.
@@ -99,8 +100,7 @@ Status add_field(const std::string& field, Json& operation) {
                            key.c_str());
   const Json value =
       equals == std::string::npos ? Json(true) : value_json(key, field.substr(equals + 1));
-  if (value.is_object() &&
-      (key == "width" || key == "wall_depth" || key == "lip_roll" || key == "chord_tolerance"))
+  if (value.is_object() && is_length(key) && !may_be_in_widths(key))
     return Status::failure(StatusCode::malformed_file, kNone,
                            "%s: '%.60s': expected metres; only length, depth and radius may be in "
                            "widths",

@@ -95,8 +95,8 @@ inline constexpr std::uint32_t kAllInfluences = kNone;
 /// the source document keep theirs.
 struct SaveOptions {
   /// Largest number of influences per vertex, 4 or 8; the largest are kept and renormalised.
-  /// kAllInfluences writes all, in as many JOINTS_n and WEIGHTS_n as needed. 0 writes as
-  /// many as the mesh has per vertex in the source, but at least four: one JOINTS_n.
+  /// kAllInfluences writes all, in as many JOINTS_n and WEIGHTS_n as needed. 0 writes no
+  /// more than the vertex of the source that has the most, over all meshes, and at least four.
   std::uint32_t maximum_influences = 0;
   WeightFormat weights = WeightFormat::float32;
   /// One per mesh of the character, in place of `weights`; empty: `weights` for all.
