@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "skinning/displace.h"
 #include "skinning/skin_work.h"
 
 // SSSE3 without later extensions is too rare to support, and AVX3_DL adds nothing that is used here
@@ -45,6 +46,18 @@ SUNDER_INLINE V negate_where_negative(V sign, V value) {
 }
 SUNDER_INLINE V if_between(V least, V value, V most, V inside, V outside) {
   return hn::IfThenElse(hn::And(hn::Lt(least, value), hn::Lt(value, most)), inside, outside);
+}
+
+/// Four numbers per lane.
+SUNDER_INLINE void load_interleaved4(const float* numbers, V& x, V& y, V& z, V& w) {
+#if HWY_TARGET == HWY_SCALAR
+  x = set(numbers[0]);
+  y = set(numbers[1]);
+  z = set(numbers[2]);
+  w = set(numbers[3]);
+#else
+  hn::LoadInterleaved4(kTag, numbers, x, y, z, w);
+#endif
 }
 
 template <bool kStream>
@@ -116,6 +129,7 @@ SUNDER_INLINE void prefetch_block(const float* numbers, std::uint32_t vectors) {
 SUNDER_INLINE void finish_streaming() { hwy::FlushStream(); }
 
 #include "skinning/kernel-inl.h"
+#include "skinning/kernel_displace-inl.h"
 
 }  // namespace HWY_NAMESPACE
 }  // namespace sunder::skinning
@@ -125,9 +139,20 @@ HWY_AFTER_NAMESPACE();
 namespace sunder::skinning {
 
 HWY_EXPORT(run_kernel);
+HWY_EXPORT(run_displacements);
+HWY_EXPORT(turn_lanes);
 
 void skin_blocks(const SkinWork& work, std::uint32_t first, std::uint32_t end) {
   HWY_DYNAMIC_DISPATCH(run_kernel)(work, first, end);
+}
+
+void displace_vertices(const VertexDisplacements& displacements, const VertexTarget& target,
+                       std::uint32_t first, std::uint32_t end, DisplacedLanes& lanes) {
+  HWY_DYNAMIC_DISPATCH(run_displacements)(displacements, target, first, end, lanes);
+}
+
+void turn_displaced(const VertexTarget& target, DisplacedLanes& lanes) {
+  HWY_DYNAMIC_DISPATCH(turn_lanes)(target, lanes);
 }
 
 }  // namespace sunder::skinning

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "skinning/displace.h"
 #include "skinning/skin_work.h"
 
 #define SUNDER_INLINE inline
@@ -30,6 +31,12 @@ V if_between(V least, V value, V most, V inside, V outside) {
   return least < value && value < most ? inside : outside;
 }
 
+void load_interleaved4(const float* numbers, V& x, V& y, V& z, V& w) {
+  x = numbers[0];
+  y = numbers[1];
+  z = numbers[2];
+  w = numbers[3];
+}
 template <bool kStream>
 void store_interleaved(V x, V y, V z, float* numbers) {
   numbers[0] = x;
@@ -44,11 +51,21 @@ void prefetch_block(const float*, std::uint32_t) {}
 void finish_streaming() {}
 
 #include "skinning/kernel-inl.h"
+#include "skinning/kernel_displace-inl.h"
 
 }  // namespace
 
 void skin_blocks(const SkinWork& work, std::uint32_t first, std::uint32_t end) {
   run_kernel(work, first, end);
+}
+
+void displace_vertices(const VertexDisplacements& displacements, const VertexTarget& target,
+                       std::uint32_t first, std::uint32_t end, DisplacedLanes& lanes) {
+  run_displacements(displacements, target, first, end, lanes);
+}
+
+void turn_displaced(const VertexTarget& target, DisplacedLanes& lanes) {
+  turn_lanes(target, lanes);
 }
 
 }  // namespace sunder::skinning

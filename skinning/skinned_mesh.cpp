@@ -130,9 +130,11 @@ struct Tasks {
   /// Displaces the vertices of one task.
   static void displace(const void* tasks, std::uint32_t index) {
     const Tasks& all = *static_cast<const Tasks*>(tasks);
+    DisplacedLanes lanes;
     all.for_each_range(index, [&](std::uint32_t first, std::uint32_t end) {
-      displace_vertices(*all.displacements, all.work.target, first, end);
+      displace_vertices(*all.displacements, all.work.target, first, end, lanes);
     });
+    turn_displaced(all.work.target, lanes);
   }
 
   /// Runs `task` over all of `these`. @param least  minimum number of elements per task.

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "support/models/posed_arrays.h"
+#include "support/models/random_displacements.h"
 #include "support/models/random_skin.h"
 
 namespace sunder {
@@ -42,9 +43,12 @@ TEST(Vectors, all_kinds_give_the_same_bits) {
           BonePalette palette = *BonePalette::create(kind.slots, kind.morph_targets, method);
           ASSERT_TRUE(palette.set(test::in_float(test::random_palette(random, kind.slots, scale)),
                                   std::vector<float>(kind.morph_targets, 0.7f)));
+          test::Soft soft = test::make_soft(random, kind.vertices);
+          soft.moved = {{3, kind.vertices / 2}, {kind.vertices / 2 + 5, 30}};
+          const VertexDisplacements displaced = soft.view();
           const auto pose_into = [&](test::PosedArrays& posed) {
             PosedBuffer buffer(posed.target());
-            ASSERT_TRUE(made->deform(palette, buffer));
+            ASSERT_TRUE(made->deform(palette, buffer, {}, &displaced));
           };
           test::PosedArrays one_by_one(mesh, 0, unit_length);
           {
