@@ -33,7 +33,7 @@ double room_below(const Vec3d& place, const Vec3d& way, std::span<const FillingS
   const double length = norm(way);
   double from = kBelowLipWays;
   for (int i = 0; i < kMostTouching && from < 1; ++i) {
-    const auto hit = first_hit({place + from * way, place + way}, work.editor, work.posed);
+    const auto hit = first_hit_of_many({place + from * way, place + way}, work.editor, work.posed);
     if (!hit) return 1;
     const double at = norm(hit->position - place) / length;
     if (!touches(hit->triangle, place, kBelowLipWays * length, work) &&

@@ -254,17 +254,14 @@ void for_each_contact(const BladePlane& plane, double progress, const SurfaceEdi
   });
 }
 
-}  // namespace
-
-std::optional<SurfaceHit> first_hit(const Blade& blade, const SurfaceEditor& editor,
-                                    PosedPoints& posed) {
-  const Frame frame = posed.frame_along(axes_along(blade.tip - blade.base), editor);
-  const Segment segment(blade, frame);
+/// The first hit of a segment, in the faces that `least_depth` leads to.
+/// @param frame  of the boxes that `least_depth` is given.
+template <class LeastDepth>
+std::optional<SurfaceHit> nearest_hit(const Segment& segment, const Frame& frame,
+                                      LeastDepth least_depth, const SurfaceEditor& editor,
+                                      PosedPoints& posed) {
   std::optional<SurfaceHit> nearest;
   double nearest_depth = 1.0;
-  const auto least_depth = [&](const FrameBox& box, const auto&... shadow) {
-    return segment.part_in(box, shadow...).begin_or_infinity();
-  };
   posed.visit_faces(editor, frame, least_depth, [&](Index triangle) {
     double depth = 0;
     const auto hit = segment.hit(triangle, posed_corners(editor, posed, triangle), depth);
@@ -278,6 +275,29 @@ std::optional<SurfaceHit> first_hit(const Blade& blade, const SurfaceEditor& edi
     return nearest_depth;
   });
   return nearest;
+}
+
+}  // namespace
+
+std::optional<SurfaceHit> first_hit(const Blade& blade, const SurfaceEditor& editor,
+                                    PosedPoints& posed) {
+  const Frame frame = posed.frame_along(axes_along(blade.tip - blade.base), editor);
+  const Segment segment(blade, frame);
+  const auto least_depth = [&](const FrameBox& box, const auto&... shadow) {
+    return segment.part_in(box, shadow...).begin_or_infinity();
+  };
+  return nearest_hit(segment, frame, least_depth, editor, posed);
+}
+
+std::optional<SurfaceHit> first_hit_of_many(const Blade& blade, const SurfaceEditor& editor,
+                                            PosedPoints& posed) {
+  const Segment segment(blade, posed.frame_along(axes_along(blade.tip - blade.base), editor));
+  const Frame frame = posed.frame_along(Mat3d::Identity(), editor);
+  const Segment in_boxes(blade, frame);
+  const auto least_depth = [&](const FrameBox& box) {
+    return in_boxes.part_in(box).begin_or_infinity();
+  };
+  return nearest_hit(segment, frame, least_depth, editor, posed);
 }
 
 std::optional<SurfaceHit> first_contact(const BladePlane& plane, double progress,

@@ -428,6 +428,9 @@ TEST(PatchForest, finds_the_same_as_testing_every_face) {
         const auto found = first_hit(blade, torn.editor, torn.posed);
         EXPECT_TRUE(is_same(found, expected))
             << say_hit(found) << " instead of " << say_hit(expected);
+        const auto of_many = first_hit_of_many(blade, torn.editor, torn.posed);
+        EXPECT_TRUE(is_same(of_many, expected))
+            << say_hit(of_many) << " instead of " << say_hit(expected);
         hits += found ? 1 : 0;
 
         // A second blade that is rotated and moved relative to the first.
