@@ -73,8 +73,8 @@ Result<LoadedCharacter> load_character(const std::filesystem::path& file,
                                        const LoadOptions& options) {
   return gltf::without_exceptions<LoadedCharacter>([&]() -> Result<LoadedCharacter> {
     const std::string extension = lower_extension(file);
-    if (extension == ".glb" || extension == ".gltf")
-      return load_gltf(file, extension == ".glb", options);
+    if (extension == ".glb" || extension == ".vrm" || extension == ".gltf")
+      return load_gltf(file, extension != ".gltf", options);
     if (extension == ".urdf") return load_urdf(file, options);
     return load_by_assimp(file, options);
   });

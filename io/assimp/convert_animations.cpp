@@ -112,7 +112,8 @@ class ClipWriter {
       } else if (seconds < 0.0) {
         ++before_zero;
       } else if (!result.times.empty() && time <= result.times.back()) {
-        ++out_of_order;
+        if (time < result.times.back() || !repeats_last(keys[i], append_value, result.values))
+          ++out_of_order;
       } else if (!append_value(keys[i], result.values)) {
         ++not_finite;
         result.values.resize(size);
@@ -125,6 +126,23 @@ class ClipWriter {
     notes_.dropped(StatusCode::malformed_file, place_, "keys before time zero", before_zero);
     notes_.dropped(StatusCode::non_finite_value, place_, "keys that are not finite", not_finite);
     return result;
+  }
+
+  /// Whether a key has about the values that `values` ends with. Some exporters write keys twice, a
+  /// few nanoseconds apart.
+  template <class Key, class AppendValue>
+  static bool repeats_last(const Key& key, const AppendValue& append_value,
+                           std::vector<float>& values) {
+    const std::size_t size = values.size();
+    const bool is_usable = append_value(key, values);
+    const auto own = static_cast<std::ptrdiff_t>(values.size() - size);
+    const bool repeats =
+        is_usable && values.size() <= 2 * size &&
+        std::equal(values.end() - own, values.end(), values.end() - 2 * own, [](float a, float b) {
+          return std::abs(a - b) <= 1e-4f * std::max(1.0f, std::abs(b));
+        });
+    values.resize(size);
+    return repeats;
   }
 
   void write(std::uint32_t node, const char* path, int components, const Keys& keys) {

@@ -11,7 +11,8 @@ namespace sunder::assimp_import {
 
 /// Writes every animation that has channels: node transforms and morph weights, linear, in seconds.
 /// Keys that are not later than the previous one, lie before zero or are not finite are dropped;
-/// keys are never sorted.
+/// keys are never sorted. A key that repeats the time and the value of the previous one is not
+/// noted.
 void convert_animations(const aiScene& scene, const SceneTree& tree,
                         std::span<const MorphedNode> morphed, GlbBuilder& glb, Notes& notes);
 

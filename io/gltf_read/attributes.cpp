@@ -9,9 +9,9 @@
 namespace sunder::gltf {
 namespace {
 
-// Largest error of a quantised unit vector: required for the bytes of KHR_mesh_quantization, and
-// accepted by validators.
-constexpr float kUnitTolerance = 0.005f;
+// Largest error of the length of a unit vector in the bytes of KHR_mesh_quantization (sqrt(3) / 2
+// of 1/127, rounded); the Khronos validator accepts as much.
+constexpr float kUnitTolerance = 0.00674f;
 
 std::string set_name(const char* prefix, std::size_t index) {
   return prefix + std::to_string(index);

@@ -1,8 +1,12 @@
+#include <sunder/io/character_file.h>
+
+#include <algorithm>
 #include <cstring>
 #include <dirent.h>
 #include <filesystem>
 #include <string>
 #include <sys/wait.h>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -195,6 +199,24 @@ TEST(AssimpImport, ContentMustBeWhatTheNameSays) {
             StatusCode::malformed_file);
   EXPECT_FALSE(import_as_glb(folder.write("strip.dae", std::string_view(test::kSkinnedX)), {}));
   EXPECT_FALSE(import_as_glb(folder.write("strip.3ds", std::string_view(test::kSkinnedX)), {}));
+}
+
+TEST(AssimpImport, a_key_that_repeats_the_previous_one_is_not_noted) {
+  const std::string once = "2; 1; 0;3;0.0,1.0,0.0;;;";
+  for (const auto& [keys, is_noted] :
+       {std::pair("2; 2; 0;3;0.0,1.0,0.0;;, 0;3;0.0,1.0,0.0;;;", false),
+        std::pair("2; 2; 0;3;0.0,1.0,0.0;;, 0;3;0.0,2.0,0.0;;;", true)}) {
+    std::string model = test::kSkinnedX;
+    model.replace(model.find(once), once.size(), keys);
+    const test::TemporaryFolder folder;
+    const auto loaded = load_character(folder.write("a.x", std::string_view(model)));
+    ASSERT_TRUE(loaded) << loaded.error().text();
+    EXPECT_EQ(std::ranges::any_of(loaded->report.notes,
+                                  [](const LoadNote& note) {
+                                    return note.text.find("not later") != std::string::npos;
+                                  }),
+              is_noted);
+  }
 }
 
 TEST(AssimpImport, RefusesWhatIsNotItsBusiness) {

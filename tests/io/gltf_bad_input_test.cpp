@@ -18,6 +18,14 @@ void overwrite_u32(std::vector<std::byte>& bytes, std::size_t offset, std::uint3
   std::memcpy(bytes.data() + offset, &value, 4);
 }
 
+TEST(LoadGltfBadInput, vrm_is_glb) {
+  const TemporaryFolder folder;
+  const auto glb = skinned_strip().glb();
+  const auto loaded = load_character(folder.write(
+      "A.VRM", std::string_view(reinterpret_cast<const char*>(glb.data()), glb.size())));
+  ASSERT_TRUE(loaded.has_value()) << loaded.error().text();
+}
+
 TEST(LoadGltfBadInput, other_content_than_gltf_is_refused) {
   const TemporaryFolder folder;
   const auto code_of = [&](const char* name, const std::string& content) {
@@ -28,6 +36,7 @@ TEST(LoadGltfBadInput, other_content_than_gltf_is_refused) {
   EXPECT_EQ(code_of("a.gltf", "xof 0303txt 0032"), StatusCode::unsupported_format);
   EXPECT_EQ(code_of("a.gltf", "glTF"), StatusCode::unsupported_format);
   EXPECT_EQ(code_of("a.glb", skinned_strip().text()), StatusCode::unsupported_format);
+  EXPECT_EQ(code_of("a.vrm", skinned_strip().text()), StatusCode::unsupported_format);
   EXPECT_EQ(code_of("a.gltf", "{\"asset\": {\"version\": \"2.0\"}"), StatusCode::malformed_file);
   EXPECT_EQ(code_of("a.gltf", "{\"asset\": {\"version\": \"1.0\"}}"),
             StatusCode::unsupported_format);

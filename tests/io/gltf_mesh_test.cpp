@@ -135,6 +135,8 @@ TEST(LoadGltfMesh, quantised_vertices_are_decoded) {
     positions[v * 3] = static_cast<std::int16_t>(-300 + static_cast<int>(v));
     normals[v * 3 + 2] = 127;
   }
+  for (std::size_t c = 0; c < 3; ++c)  // the byte vector nearest to a direction; 0.0065 too short
+    normals[3 + c] = std::array<std::int8_t, 3>{58, 61, 94}[c];
   strip_attributes(builder)["POSITION"] = builder.add(positions, "VEC3");
   strip_attributes(builder)["NORMAL"] = builder.add(normals, "VEC3", true);
   strip_attributes(builder)["TEXCOORD_0"] = builder.add(uvs, "VEC2", true);
@@ -146,6 +148,7 @@ TEST(LoadGltfMesh, quantised_vertices_are_decoded) {
   ASSERT_TRUE(loaded.has_value()) << loaded.error().text();
   const Mesh& mesh = first_mesh(loaded);
   EXPECT_EQ(mesh.positions[2], Vec3f(-298, 0, 0));
+  EXPECT_EQ(mesh.normals[1], Vec3f(58 / 127.0f, 61 / 127.0f, 94 / 127.0f));
   EXPECT_EQ(mesh.normals[2], Vec3f(0, 0, 1));
   EXPECT_EQ(mesh.uv_sets[0][2], Vec2f(1, 1));
   EXPECT_EQ(mesh.color_sets.at(0)[2], Vec4f(0.2f, 0.2f, 0.2f, 1));
