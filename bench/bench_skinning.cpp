@@ -12,6 +12,7 @@
 #include "bench/peers/native_peers.h"
 #include "bench/skinning/skinning_scene.h"
 #include "samples/thread_pool.h"
+#include "support/models/random_displacements.h"
 
 namespace sunder::bench {
 namespace {
@@ -44,6 +45,8 @@ constexpr const char* kHelp =
     "                       a full frame, minus the fraction of vertices that the bone moves; the\n"
     "                       maximum over the sizes\n"
     "  idle_us              set() and deform() of an unchanged pose, at the slowest size\n"
+    "  displace_ns          what displacing every vertex adds per vertex: positions, normals and\n"
+    "                       tangents, at 31 thousand vertices\n"
     "  max_error_vs_double  metres, for a character of 2 m, at any size\n";
 
 constexpr std::array<int, 4> kDivisions = {1, 3, 7, 16};
@@ -226,6 +229,53 @@ std::vector<std::pair<const char*, double>> measure_variants(const SkinningScene
   return result;
 }
 
+/// What displacing every vertex adds to posing it: nanoseconds per vertex.
+struct Displacing {
+  double positions = 0, normals = 0, tangents = 0;  ///< Each together with those before.
+};
+
+Displacing measure_displacing(const SkinningScene& scene) {
+  Mesh mesh = scene.mesh();
+  mesh.tangents.assign(mesh.vertex_count(), Vec4f(1, 0, 0, 1));
+  const auto skinned = SkinnedMesh::create(source_of(mesh), scene.character.skins[0].bones.size());
+  test::Random random(1);
+  test::Soft soft = test::make_soft(random, mesh.vertex_count(), 200);
+  // A row and four particles for each vertex; neighbours share most of them.
+  for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) soft.rows[v] = v;
+  soft.influences.resize(mesh.vertex_count());
+  soft.gradients.resize(mesh.vertex_count());
+  for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v)
+    for (std::uint32_t k = 0; k < 4; ++k) {
+      soft.influences[v].particles[k] =
+          static_cast<std::uint32_t>(190.0 * v / mesh.vertex_count()) + random.index(10);
+      soft.influences[v].weights[k] = 0.25f;
+      soft.gradients[v].of_weights[k] = test::random_vector(random, 3);
+    }
+  soft.moved = {{0, mesh.vertex_count()}};
+  const VertexDisplacements displacements = soft.view();
+
+  CrowdMember member(scene);
+  std::vector<Candidate> candidates;
+  std::deque<PosedBuffer> buffers;
+  for (int attributes = 1; attributes <= 3; ++attributes)
+    for (const VertexDisplacements* displaced :
+         {static_cast<const VertexDisplacements*>(nullptr), &displacements}) {
+      VertexTarget target{member.vertices, {member.positions.data()}, {}, {}};
+      if (attributes > 1) target.normals = {member.normals.data()};
+      if (attributes > 2) target.tangents = {member.tangents.data()};
+      PosedBuffer& buffer = buffers.emplace_back(target);
+      candidates.push_back({"", [&skinned, &member, &buffer, displaced](std::size_t pose) {
+                              (void)skinned->deform(member.palettes[pose], buffer, {}, displaced);
+                            }});
+    }
+  measure(candidates, member.vertices, 15);
+  const auto added = [&](std::size_t attributes) {
+    return median(candidates[2 * attributes + 1].ns_per_vertex) -
+           median(candidates[2 * attributes].ns_per_vertex);
+  };
+  return {added(0), added(1), added(2)};
+}
+
 std::deque<CrowdMember> make_crowd(const SkinningScene& scene) {
   std::deque<CrowdMember> crowd;
   std::size_t bytes = 0;
@@ -294,6 +344,10 @@ void print_tables() {
           figures.eigen_error.normal);
       for (const auto& [name, time] : measure_variants(scene))
         std::printf("          %-34s %6.2f\n", name, time);
+      const Displacing displacing = measure_displacing(scene);
+      std::printf(
+          "          displacing adds: positions %.2f, with normals %.2f, with tangents too %.2f\n",
+          displacing.positions, displacing.normals, displacing.tangents);
     }
 }
 
@@ -327,6 +381,7 @@ void print_summary() {
   object.add("two_threads_3k", threads(sizes[0]));
   object.add("one_bone_overhead", one_bone);
   object.add("idle_us", idle);
+  object.add("displace_ns", measure_displacing(SkinningScene(kDivisions[1], true)).tangents);
   object.add("max_error_vs_double", error);
   object.end();
 }
