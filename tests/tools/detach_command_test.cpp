@@ -60,6 +60,16 @@ TEST_F(DetachCommand, a_saved_log_gives_the_same_model) {
   EXPECT_EQ(read_json("a.json")["result"]["digest"], read_json("b.json")["result"]["digest"]);
 }
 
+TEST_F(DetachCommand, pieces_without_a_detach_are_said_to_be_none) {
+  const CommandResult result =
+      run_sunder({"tear", model(), "--ops", write("cut.json", R"({"sunder_operations": 1,
+        "operations": [{"op": "cut", "plane": {"point": [0, 1.2, 0], "normal": [0, 1, 0]}}]})"),
+                  "-o", path("cut.glb"), "--pieces", path("no_piece")});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("--pieces: no piece was written"));
+  EXPECT_FALSE(exists("no_piece1.glb"));
+}
+
 TEST_F(DetachCommand, faults_are_reported) {
   const CommandResult bone = run_sunder(
       {"tear", model(), "--ops", write("bone.json", R"({"sunder_operations": 1, "operations": [

@@ -70,7 +70,12 @@ ExitCode write_pieces(TearRun& run) {
   if (request.dry_run || !run.pieces) return ExitCode::ok;
   std::vector<NamedFile> kept = inputs_of(request);
   if (request.output) kept.push_back({"--output", *request.output});
-  return run.pieces->write(*request.pieces, run.loaded, request.save, kept, run.piece_files);
+  const ExitCode code =
+      run.pieces->write(*request.pieces, run.loaded, request.save, kept, run.piece_files);
+  if (code == ExitCode::ok && run.piece_files.empty())
+    run.messages.warn(
+        "--pieces: no piece was written; only {\"op\": \"detach\"} of --ops takes one off");
+  return code;
 }
 
 ExitCode write_files(const TearRun& run, const std::string& report) {
