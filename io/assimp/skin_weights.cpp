@@ -22,7 +22,7 @@ double sum_of(std::span<const Influence> influences) {
   return sum;
 }
 
-/// Whether no float nearer to 1 could be the sum: readers have their own tolerances.
+/// Up to the spacing of floats below 1, because readers tolerate different sums.
 bool is_normalized(std::span<const Influence> influences) {
   return std::abs(sum_of(influences) - 1.0) <= 6e-8;
 }

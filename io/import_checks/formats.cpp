@@ -44,7 +44,7 @@ Result<Format> format_of(std::string_view file_name) {
   const auto format = std::find_if(kFormats.begin(), kFormats.end(),
                                    [&](const Format& one) { return one.extension == extension; });
   if (format != kFormats.end()) return *format;
-  std::string known = "glb, gltf";
+  std::string known = "glb, vrm, gltf";
   for (const Format& one : kFormats) known += ", " + std::string(one.extension);
   const std::string kind =
       extension.empty() ? "files without an extension" : "." + extension.substr(0, 20) + " files";

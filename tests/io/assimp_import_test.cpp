@@ -201,6 +201,21 @@ TEST(AssimpImport, ContentMustBeWhatTheNameSays) {
   EXPECT_FALSE(import_as_glb(folder.write("strip.3ds", std::string_view(test::kSkinnedX)), {}));
 }
 
+TEST(AssimpImport, many_influences_sum_to_one_as_closely_as_few) {
+  std::string model = test::kSixBoneCollada;
+  model.replace(model.find(">0.2 1.0<"), 9, ">0.16666652 1.0<");  // six sum to 1 - 8.8e-7
+  const test::TemporaryFolder folder;
+  const auto imported = import_as_glb(folder.write("sail.dae", std::string_view(model)), {});
+  ASSERT_TRUE(imported) << imported.error().text();
+  const Glb glb(*imported);
+  double sum = 0.0;
+  for (const char* set : {"WEIGHTS_0", "WEIGHTS_1"}) {
+    const std::vector<float> weights = glb.attribute(set);
+    for (std::size_t i = 0; i < 4; ++i) sum += static_cast<double>(weights[i]);
+  }
+  EXPECT_NEAR(sum, 1.0, 6e-8);
+}
+
 TEST(AssimpImport, a_key_that_repeats_the_previous_one_is_not_noted) {
   const std::string once = "2; 1; 0;3;0.0,1.0,0.0;;;";
   for (const auto& [keys, is_noted] :
