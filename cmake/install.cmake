@@ -54,7 +54,7 @@ if(SUNDER_QHULL AND NOT BUILD_SHARED_LIBS)
   string(APPEND SUNDER_STATIC_DEPENDENCIES "find_dependency(Qhull CONFIG)\n")
 endif()
 if(SUNDER_IO AND NOT BUILD_SHARED_LIBS)
-  string(APPEND SUNDER_STATIC_DEPENDENCIES "find_dependency(TinyGLTF)\nfind_dependency(assimp)\nfind_dependency(nlohmann_json)\n"
+  string(APPEND SUNDER_STATIC_DEPENDENCIES "find_dependency(assimp)\nfind_dependency(nlohmann_json)\n"
     "find_dependency(simdjson)\nfind_dependency(draco)\nfind_dependency(meshoptimizer)\n"
     "find_dependency(tinyxml2)\nfind_dependency(urdfdom)\nfind_dependency(ZLIB)")
 endif()

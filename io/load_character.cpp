@@ -1,15 +1,18 @@
 #include <sunder/io/character_file.h>
 #include <sunder/io/robot_file.h>
 
-#include <span>
+#include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "io/contained_import/import_as_glb.h"
 #include "io/gltf/container.h"
 #include "io/gltf/refusal.h"
-#include "io/gltf/uris.h"
+#include "io/gltf_decoders/all_decoders.h"
+#include "io/gltf_files/folder_files.h"
 #include "io/gltf_read/read.h"
+#include "io/internal/load_bytes.h"
 #include "io/internal/lower_extension.h"
 
 namespace sunder {
@@ -24,8 +27,11 @@ Result<LoadedCharacter> load_gltf(const std::filesystem::path& file, bool is_glb
     return Status::failure(StatusCode::unsupported_format, kNone,
                            "the file extension says %s, but the content is not",
                            is_glb ? "GLB" : "glTF text");
-  std::filesystem::path folder = file.parent_path();
-  return gltf::read_character(std::move(content), folder.empty() ? "." : folder, options);
+  const std::filesystem::path folder = file.parent_path();
+  return gltf::read_character(
+      std::move(content),
+      std::make_shared<gltf::FolderFiles>(folder.empty() ? "." : folder, options.roots), options,
+      gltf::all_decoders());
 }
 
 /// The fault of the GLB of an import, in the words of the model's own name.
@@ -44,7 +50,7 @@ Result<LoadedCharacter> load_by_assimp(const std::filesystem::path& file,
   if (!imported) return imported.error();
   LoadOptions of_glb = options;
   if (of_glb.maximum_memory == 0) of_glb.maximum_memory = imported->maximum_memory;
-  auto loaded = gltf::read_character(std::move(imported->glb), {}, of_glb);
+  auto loaded = load_glb(std::move(imported->glb), of_glb);
   if (!loaded) return refusal_of_import(loaded.error(), file.filename().string());
   LoadReport& report = loaded->report;
   report.format = std::move(imported->report.format);
@@ -68,6 +74,11 @@ Result<LoadedCharacter> load_urdf(const std::filesystem::path& file, const LoadO
 }
 
 }  // namespace
+
+Result<LoadedCharacter> load_glb(std::vector<std::byte> bytes, const ReadOptions& options,
+                                 std::shared_ptr<const FileResolver> resolver) {
+  return load_bytes(std::move(bytes), options, std::move(resolver), gltf::all_decoders());
+}
 
 Result<LoadedCharacter> load_character(const std::filesystem::path& file,
                                        const LoadOptions& options) {

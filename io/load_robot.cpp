@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "io/gltf/refusal.h"
-#include "io/gltf/uris.h"
+#include "io/gltf_files/folder_files.h"
 #include "io/urdf/findings.h"
 #include "io/urdf/read_robot.h"
 

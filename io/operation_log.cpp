@@ -4,8 +4,6 @@
 #include <new>
 #include <utility>
 
-#include "io/internal/read_input.h"
-#include "io/internal/staged_file.h"
 #include "io/internal/strict_json.h"
 #include "io/operation_log/format.h"
 #include "io/operation_log/read_operation.h"
@@ -27,12 +25,6 @@ Status status_of_current_exception() {
   } catch (const std::exception& error) {
     return Status::failure(StatusCode::internal_error, kNone, "operation log: %s", error.what());
   }
-}
-
-std::string read_text(const std::filesystem::path& file) {
-  Result<std::string> text = read_input(file, kMaximumJsonBytes);
-  if (!text) throw Fault{text.error()};
-  return std::move(*text);
 }
 
 std::string write_text(std::span<const Operation> operations) {
@@ -57,14 +49,6 @@ Result<std::vector<Operation>> parse_operations(std::string_view json) {
   }
 }
 
-Result<std::vector<Operation>> load_operations(const std::filesystem::path& file) {
-  try {
-    return parse_operations(read_text(file));
-  } catch (...) {
-    return status_of_current_exception();
-  }
-}
-
 Result<std::vector<LoggedOperation>> parse_aimed_operations(std::string_view json) {
   try {
     const Result<StrictJson> log = parse_strict_json(json);
@@ -75,26 +59,9 @@ Result<std::vector<LoggedOperation>> parse_aimed_operations(std::string_view jso
   }
 }
 
-Result<std::vector<LoggedOperation>> load_aimed_operations(const std::filesystem::path& file) {
-  try {
-    return parse_aimed_operations(read_text(file));
-  } catch (...) {
-    return status_of_current_exception();
-  }
-}
-
 Result<std::string> format_operations(std::span<const Operation> operations) {
   try {
     return write_text(operations);
-  } catch (...) {
-    return status_of_current_exception();
-  }
-}
-
-Status save_operations(const std::filesystem::path& file, std::span<const Operation> operations) {
-  try {
-    const std::string text = write_text(operations);
-    return write_file(file, std::as_bytes(std::span<const char>(text)));
   } catch (...) {
     return status_of_current_exception();
   }

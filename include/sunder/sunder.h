@@ -62,6 +62,7 @@
 
 // Absent where the library was built without SUNDER_IO.
 #if __has_include(<sunder/io/character_file.h>)
+#include <sunder/io/character_bytes.h>
 #include <sunder/io/character_file.h>
 #include <sunder/io/operation_log.h>
 #endif

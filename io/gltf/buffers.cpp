@@ -23,7 +23,7 @@ void resolve_buffer(SourceDocument& document, const Container& container, std::s
       document.other_files.push_back(decode_data_uri(uri->to_string(), uri->pointer()));
     else
       document.other_files.push_back(
-          read_uri(uri->to_string(), document.folder, uri->pointer(), document.roots, bytes_left));
+          document.read_side_file(uri->to_string(), uri->pointer(), bytes_left));
     bytes = document.other_files.back();
     bytes_left -= std::min<std::uint64_t>(bytes_left, bytes.size());
   } else if (index == 0 && container.is_glb) {

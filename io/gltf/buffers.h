@@ -5,7 +5,7 @@
 
 namespace sunder::gltf {
 
-/// Fills document.buffers from the BIN chunk, data: URIs, and files of document.folder.
+/// Fills document.buffers from the BIN chunk, data: URIs, and document.side_files.
 void resolve_buffers(SourceDocument& document, const Container& container);
 
 /// Checks that every entry of /bufferViews lies in its buffer.

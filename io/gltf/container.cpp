@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "io/gltf/parse_json.h"
 #include "io/gltf/refusal.h"
 
 namespace sunder::gltf {
@@ -105,12 +104,19 @@ void check_nesting(std::string_view text, std::uint64_t maximum_memory) {
   }
 }
 
+bool is_compression(std::string_view extension) {
+  return extension == "KHR_draco_mesh_compression" || extension == "EXT_meshopt_compression" ||
+         extension == "KHR_meshopt_compression";
+}
+
+bool can_decompress(std::string_view extension, const Decoders& decoders) {
+  return extension == "KHR_draco_mesh_compression" ? decoders.draco_primitives != nullptr
+                                                   : decoders.meshopt_views != nullptr;
+}
+
 /// Whether a file that requires this extension can be read: those that io/gltf supports, and those
 /// that do not change geometry, skins or animation.
 bool can_read(std::string_view extension) {
-  constexpr std::array<std::string_view, 4> kSupported = {
-      "KHR_mesh_quantization", "KHR_draco_mesh_compression", "EXT_meshopt_compression",
-      "KHR_meshopt_compression"};
   constexpr std::array<std::string_view, 17> kHarmless = {
       "KHR_materials_",        "EXT_materials_",    "ADOBE_materials_",
       "KHR_texture_",          "EXT_texture_",      "MSFT_texture_",
@@ -119,7 +125,7 @@ bool can_read(std::string_view extension) {
       "FB_ngon_encoding",      "EXT_mesh_features", "EXT_structural_metadata",
       "EXT_instance_features", "MSFT_lod"};
   const auto has_prefix = [&](std::string_view prefix) { return extension.starts_with(prefix); };
-  return std::find(kSupported.begin(), kSupported.end(), extension) != kSupported.end() ||
+  return extension == "KHR_mesh_quantization" || is_compression(extension) ||
          std::any_of(kHarmless.begin(), kHarmless.end(), has_prefix);
 }
 
@@ -146,15 +152,29 @@ void check_required_extensions(const Cursor& document) {
   }
 }
 
-Json parse_json(std::string_view text, std::uint64_t maximum_memory) {
+/// Also a compression that the file only uses: its data may have no other form.
+void check_compression(const Cursor& document, const Decoders& decoders) {
+  const auto used = document.find("extensionsUsed");
+  if (!used) return;
+  for (std::size_t i = 0; i < used->size(); ++i) {
+    const Cursor extension = used->element(i);
+    if (is_compression(extension.to_string()) && !can_decompress(extension.to_string(), decoders))
+      refuse(StatusCode::unsupported_feature, static_cast<std::uint32_t>(i),
+             "%s: this build does not decode %s", extension.pointer().c_str(),
+             extension.to_string().c_str());
+  }
+}
+
+Json parse_json(std::string_view text, std::uint64_t maximum_memory, const Decoders& decoders) {
   // simdjson keeps a copy of the text and up to eight bytes per character, before a value is read.
   constexpr std::uint64_t kParserMemory = 10;
   if (text.size() > maximum_memory / kParserMemory)
     refuse(StatusCode::limit_exceeded, kNone,
            "JSON: parsing its %zu bytes exceeds %llu bytes (LoadOptions::maximum_memory)",
            text.size(), static_cast<unsigned long long>(maximum_memory));
-  if (auto document = parse_json_fast(text, {kMaximumNesting, kMaximumMembers, maximum_memory}))
-    return *std::move(document);
+  const JsonLimits limits = {kMaximumNesting, kMaximumMembers, maximum_memory};
+  if (decoders.json != nullptr)
+    if (auto document = decoders.json(text, limits)) return *std::move(document);
   check_nesting(text, maximum_memory);
   try {
     return Json::parse(text.begin(), text.end());
@@ -199,11 +219,12 @@ bool is_container_sound(std::span<const std::byte> glb) {
   return chunk > 0 && std::to_integer<char>(glb[kHeaderBytes + kChunkHeaderBytes]) == '{';
 }
 
-Json parse_document(std::string_view text, std::uint64_t maximum_memory) {
-  Json document = parse_json(text, maximum_memory);
+Json parse_document(std::string_view text, std::uint64_t maximum_memory, const Decoders& decoders) {
+  Json document = parse_json(text, maximum_memory, decoders);
   const Cursor root(document, "");
   check_version(root);
   check_required_extensions(root);
+  check_compression(root, decoders);
   return document;
 }
 

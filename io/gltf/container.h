@@ -1,12 +1,10 @@
 #pragma once
 
-#include <sunder/io/character_file.h>
-
 #include <cstddef>
 #include <span>
 #include <string_view>
 
-#include "io/gltf/cursor.h"
+#include "io/gltf/decoders.h"
 
 namespace sunder::gltf {
 
@@ -29,6 +27,7 @@ struct Container {
 /// Parses the JSON after checking its nesting and its size in memory; then checks its version and
 /// required extensions.
 /// @param maximum_memory  for the parsed document, bytes.
-[[nodiscard]] Json parse_document(std::string_view text, std::uint64_t maximum_memory);
+[[nodiscard]] Json parse_document(std::string_view text, std::uint64_t maximum_memory,
+                                  const Decoders& decoders);
 
 }  // namespace sunder::gltf

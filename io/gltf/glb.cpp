@@ -101,7 +101,7 @@ void GlbDraft::embed_image(Json& image, std::uint64_t& bytes_left) {
   if (is_data_uri(uri)) return;
   std::vector<std::byte> bytes;
   try {
-    bytes = read_uri(uri, source_.folder, "image", source_.roots, bytes_left);
+    bytes = source_.read_side_file(uri, "image", bytes_left);
   } catch (const Refusal&) {
     return;  // The reference stays as in the source.
   }

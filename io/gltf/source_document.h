@@ -1,14 +1,15 @@
 #pragma once
 
-#include <sunder/io/character_file.h>
+#include <sunder/io/character_bytes.h>
 
 #include <cstddef>
-#include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "io/gltf/cursor.h"
+#include "io/gltf/side_files.h"
 
 namespace sunder {
 
@@ -36,6 +37,14 @@ class SourceDocument {
     std::uint32_t skin = 0;       ///< In Character::skins.
   };
 
+  /// @throws Refusal  as SideFiles::read(); also if it may refer to no other file.
+  [[nodiscard]] std::vector<std::byte> read_side_file(const std::string& uri,
+                                                      const std::string& place,
+                                                      std::uint64_t most_bytes) const {
+    if (side_files == nullptr) gltf::refuse_side_file(uri, place);
+    return side_files->read(uri, place, most_bytes);
+  }
+
   /// As in the file; where the file compresses data, as it would be without compression.
   gltf::Json json;
   std::vector<std::byte> content;  ///< The bytes of the file.
@@ -44,11 +53,9 @@ class SourceDocument {
       other_files;  ///< Content of data: URIs and external buffers; decoded data.
   /// One per entry of /buffers, in `content` or `other_files`; empty where nothing refers to it.
   std::vector<std::span<const std::byte>> buffers;
-  /// Absolute: the folder to which relative URIs may point. Or empty.
-  std::filesystem::path folder;
-  std::vector<std::filesystem::path> roots;  ///< LoadOptions::roots.
-  std::uint64_t maximum_bytes = 0;   ///< LoadOptions::maximum_bytes, for images embedded on saving.
-  std::uint64_t maximum_memory = 0;  ///< For decoded data, as LoadOptions::maximum_memory; not 0.
+  std::shared_ptr<const gltf::SideFiles> side_files;  ///< Null: it may refer to no other file.
+  std::uint64_t maximum_bytes = 0;   ///< ReadOptions::maximum_bytes, for images embedded on saving.
+  std::uint64_t maximum_memory = 0;  ///< For decoded data, as ReadOptions::maximum_memory; not 0.
   std::vector<MeshOrigin> mesh_origins;  ///< One per mesh of the character.
   std::vector<RepairedSkin> repaired_skins;
   std::vector<std::uint32_t> node_of_bone;  ///< kNone for bones that loading added.

@@ -13,7 +13,6 @@
 #include "io/gltf_patch/repair_document.h"
 #include "io/gltf_write/mesh_writer.h"
 #include "io/gltf_write/rig_writer.h"
-#include "io/internal/staged_file.h"
 
 namespace sunder::gltf {
 namespace {
@@ -402,15 +401,6 @@ Result<std::vector<WrittenInfluences>> influences_of_written(const Character& ch
     }
     return written;
   });
-}
-
-Status write_character(const std::filesystem::path& file, const Character& character,
-                       const LoadedCharacter& loaded, const SaveOptions& options) {
-  try {
-    return write_file(file, glb_of(character, loaded, options));
-  } catch (...) {
-    return status_of_current_exception();
-  }
 }
 
 }  // namespace sunder::gltf

@@ -1,20 +1,16 @@
 #pragma once
 
-#include <sunder/io/character_file.h>
+#include <sunder/io/character_bytes.h>
 
 #include <cstddef>
 #include <vector>
 
 namespace sunder::gltf {
 
-/// The file that write_character() writes. Throws Refusal.
+/// The GLB that save_glb() writes. Throws Refusal.
 [[nodiscard]] std::vector<std::byte> glb_of(const Character& character,
                                             const LoadedCharacter& loaded,
                                             const SaveOptions& options);
-
-/// See save_glb().
-[[nodiscard]] Status write_character(const std::filesystem::path& file, const Character& character,
-                                     const LoadedCharacter& loaded, const SaveOptions& options);
 
 /// See sunder::written_influences().
 [[nodiscard]] Result<std::vector<WrittenInfluences>> influences_of_written(

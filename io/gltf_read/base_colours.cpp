@@ -172,7 +172,7 @@ class Reader {
       if (!uri.is_string()) return {};
       const auto text = uri.get<std::string>();
       if (gltf::is_data_uri(text)) return gltf::decode_data_uri(text, "image");
-      return gltf::read_uri(text, source_.folder, "image", source_.roots, bytes_left_);
+      return source_.read_side_file(text, "image", bytes_left_);
     } catch (const gltf::Refusal&) {
       return {};
     }

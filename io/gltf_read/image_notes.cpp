@@ -1,8 +1,6 @@
 #include "io/gltf_read/image_notes.h"
 
-#include <filesystem>
 #include <string>
-#include <system_error>
 
 #include "io/gltf/refusal.h"
 #include "io/gltf/uris.h"
@@ -19,9 +17,8 @@ void note_images(Reading& reading) {
     if (is_data_uri(uri)) continue;
     const std::string place = "/images/" + std::to_string(i);
     try {
-      std::error_code error;
-      if (!std::filesystem::is_regular_file(resolve_uri(uri, reading.document.folder, place),
-                                            error))
+      if (reading.document.side_files == nullptr) refuse_side_file(uri, place);
+      if (!reading.document.side_files->exists(uri, place))
         reading.notes.inform(place, "the image does not exist; its reference stays");
     } catch (const Refusal& refusal) {
       if (refusal.status.code() == StatusCode::path_not_allowed)

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -14,10 +13,8 @@
 #include "io/gltf/refusal.h"
 #include "io/gltf_read/animations.h"
 #include "io/gltf_read/decoded_data.h"
-#include "io/gltf_read/draco_primitives.h"
 #include "io/gltf_read/image_notes.h"
 #include "io/gltf_read/meshes.h"
-#include "io/gltf_read/meshopt_views.h"
 #include "io/gltf_read/skeleton.h"
 
 namespace sunder::gltf {
@@ -48,7 +45,7 @@ void note_other_scenes(Reading& reading) {
 
 /// For the decoded data of files of this size; the rest is for the files and what is needed for a
 /// moment.
-std::uint64_t memory_limit(const LoadOptions& options, std::uint64_t file_bytes) {
+std::uint64_t memory_limit(const ReadOptions& options, std::uint64_t file_bytes) {
   constexpr std::uint64_t kLeast = std::uint64_t{64} << 20, kTimes = 20;
   if (options.maximum_memory != 0) return options.maximum_memory;
   const std::uint64_t files = std::min(file_bytes, options.maximum_bytes);
@@ -62,20 +59,21 @@ std::uint64_t bytes_of_files(const SourceDocument& document) {
 }
 
 /// Buffers and buffer views, with compressed data decoded.
-void resolve_data(SourceDocument& document, const Container& container, const LoadOptions& options,
-                  Notes& notes) {
+void resolve_data(SourceDocument& document, const Container& container, const ReadOptions& options,
+                  const Decoders& decoders, Notes& notes) {
   resolve_buffers(document, container);
   DecodedData decoded(document);
-  const std::vector<std::uint32_t> rounded = decode_meshopt_views(document, decoded, notes);
+  std::vector<std::uint32_t> rounded;
+  if (decoders.meshopt_views != nullptr) rounded = decoders.meshopt_views(document, decoded, notes);
   document.maximum_memory = memory_limit(options, bytes_of_files(document));
   check_buffer_views(document);
   if (!rounded.empty()) correct_bounds(document, rounded);
-  decode_draco_primitives(document, decoded, notes);
+  if (decoders.draco_primitives != nullptr) decoders.draco_primitives(document, decoded, notes);
   document.maximum_memory = memory_limit(options, bytes_of_files(document));
 }
 
-LoadedCharacter read(std::vector<std::byte> content, const std::filesystem::path& folder,
-                     const LoadOptions& options) {
+LoadedCharacter read(std::vector<std::byte> content, std::shared_ptr<const SideFiles> side_files,
+                     const ReadOptions& options, const Decoders& decoders) {
   if (content.size() > options.maximum_bytes)
     refuse(StatusCode::limit_exceeded, kNone,
            "the file has %zu bytes; the limit is %llu (LoadOptions::maximum_bytes)", content.size(),
@@ -83,17 +81,17 @@ LoadedCharacter read(std::vector<std::byte> content, const std::filesystem::path
   const auto document = std::make_shared<SourceDocument>();
   document->content = std::move(content);
   document->maximum_bytes = options.maximum_bytes;
-  if (!folder.empty()) document->folder = std::filesystem::absolute(folder);
-  for (const auto& root : options.roots) document->roots.push_back(std::filesystem::absolute(root));
+  document->side_files = std::move(side_files);
   const Container container = split_container(document->content);
   document->is_glb = container.is_glb;
-  document->json = parse_document(container.json, memory_limit(options, content.size()));
+  document->json =
+      parse_document(container.json, memory_limit(options, document->content.size()), decoders);
 
   LoadedCharacter loaded;
   loaded.report.format = container.is_glb ? "glTF 2.0 binary" : "glTF 2.0 text";
   loaded.report.space = "metres, y up; the file's scene space";
   Notes notes(loaded.report, options.strict);
-  resolve_data(*document, container, options, notes);
+  resolve_data(*document, container, options, decoders, notes);
   Reading reading{*document, AccessorReader(*document), notes, options.keep_stored_influences};
   const auto character = std::make_shared<Character>();
   character->name = scene_name(document->json);
@@ -125,10 +123,10 @@ LoadedCharacter read(std::vector<std::byte> content, const std::filesystem::path
 }  // namespace
 
 Result<LoadedCharacter> read_character(std::vector<std::byte> content,
-                                       const std::filesystem::path& folder,
-                                       const LoadOptions& options) {
+                                       std::shared_ptr<const SideFiles> side_files,
+                                       const ReadOptions& options, const Decoders& decoders) {
   return without_exceptions<LoadedCharacter>(
-      [&] { return read(std::move(content), folder, options); });
+      [&] { return read(std::move(content), std::move(side_files), options, decoders); });
 }
 
 }  // namespace sunder::gltf

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <sunder/core/mesh.h>
-#include <sunder/io/character_file.h>
+#include <sunder/io/character_bytes.h>
 
 #include "io/gltf/glb.h"
 #include "io/gltf_write/influence_sets.h"

@@ -13,7 +13,6 @@
 #include "io/gltf_write/lists.h"
 #include "io/gltf_write/mesh_writer.h"
 #include "io/gltf_write/rig_writer.h"
-#include "io/internal/staged_file.h"
 
 namespace sunder::gltf {
 namespace {
@@ -290,33 +289,21 @@ class NewDocument {
   std::map<Index, Index> node_of_mesh_;
 };
 
-Status write(const std::filesystem::path& file, const Character& character,
-             const SaveOptions& options, const SourceDocument* copied) {
-  try {
-    check_options(options, character.meshes.size());
-    if (const Status status = validate_character(character); !status) return status;
-    return write_file(file, NewDocument(character, options, copied, nullptr).write());
-  } catch (...) {
-    return status_of_current_exception();
-  }
+void check_character(const Character& character) {
+  if (const Status status = validate_character(character); !status) throw Refusal{status};
 }
 
 }  // namespace
 
-Status write_new_document(const std::filesystem::path& file, const Character& character,
-                          const SaveOptions& options) {
-  return write(file, character, options, nullptr);
-}
-
-Status write_with_materials(const std::filesystem::path& file, const Character& character,
-                            const SourceDocument& materials, const SaveOptions& options) {
-  return write(file, character, options, &materials);
+std::vector<std::byte> new_document(const Character& character, const SaveOptions& options,
+                                    const SourceDocument* materials) {
+  check_options(options, character.meshes.size());
+  check_character(character);
+  return NewDocument(character, options, materials, nullptr).write();
 }
 
 std::vector<std::byte> new_document(const Character& character, const NewMaterials& materials) {
-  if (const Status status = validate_character(character); !status)
-    refuse(status.code(), status.index(), "%.*s", static_cast<int>(status.text().size()),
-           status.text().data());
+  check_character(character);
   const SaveOptions all_defaults;
   return NewDocument(character, all_defaults, nullptr, &materials).write();
 }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <sunder/core/math.h>
-#include <sunder/io/character_file.h>
+#include <sunder/io/character_bytes.h>
 
 #include <cstddef>
 #include <cstdint>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <sunder/io/character_file.h>
+#include <sunder/io/character_bytes.h>
 
 #include <cstdint>
 #include <vector>

@@ -5,7 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "io/gltf_read/read.h"
 #include "io/gltf_write/new_document.h"
 
 namespace sunder::urdf {
@@ -93,7 +92,7 @@ Result<LoadedCharacter> make_model(const Robot& robot, LinkMeshes meshes,
     reading.strict = false;
     reading.keep_stored_influences = false;
     const std::size_t bone_count = character.skeleton.bones.size();
-    auto read = gltf::read_character(gltf::new_document(character, meshes.materials), {}, reading);
+    auto read = load_glb(gltf::new_document(character, meshes.materials), reading);
     if (!read) return read;
     loaded = std::move(*read);
     if (loaded.character->skeleton.bones.size() != bone_count)

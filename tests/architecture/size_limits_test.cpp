@@ -25,7 +25,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 /// Headers of the runtime, all in <sunder/sunder.h>, and those for pipelines.
-constexpr std::size_t kMostInstalledHeaders = 57;
+constexpr std::size_t kMostInstalledHeaders = 59;
 constexpr std::size_t kMostPipelineHeaders = 14;
 constexpr std::size_t kMostFilesAtRoot = 13;
 
@@ -122,9 +122,10 @@ TEST(SizeLimits, few_files_are_at_the_roots_of_large_modules) {
 
 TEST(SizeLimits, functions_are_short_and_flat_and_take_few_parameters) {
   for (const char* const folder :
-       {"aim", "animation", "binding", "bodies", "certificate", "core", "coupled_refit", "include",
-        "io", "operation", "particles", "robot", "samples", "scene", "skinning", "tear", "tools",
-        "validation", "weights"})
+       {"aim",         "animation", "binding",       "bindings",   "bodies",
+        "certificate", "core",      "coupled_refit", "include",    "io",
+        "operation",   "particles", "robot",         "samples",    "scene",
+        "skinning",    "tear",      "tools",         "validation", "weights"})
     EXPECT_THAT(oversized_functions(SUNDER_SOURCE_DIR, folder), IsEmpty());
 }
 

@@ -1,6 +1,6 @@
 // A GLB or glTF text from memory: read, written and read again.
 
-#include <sunder/io/character_file.h>
+#include <sunder/io/character_bytes.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -8,9 +8,6 @@
 #include <cstdlib>
 #include <span>
 #include <vector>
-
-#include "io/gltf_patch/write.h"
-#include "io/gltf_read/read.h"
 
 namespace {
 
@@ -26,9 +23,9 @@ void require(bool holds, const char* law, const sunder::Status& status) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace sunder;
   const auto* const begin = reinterpret_cast<const std::byte*>(data);
-  LoadOptions options;
+  ReadOptions options;
   options.maximum_bytes = 1 << 20;
-  const auto loaded = gltf::read_character({begin, begin + size}, {}, options);
+  const auto loaded = load_glb({begin, begin + size}, options);
   if (!loaded) {
     require(loaded.error().code() != StatusCode::internal_error, "reading fails inside",
             loaded.error());
@@ -36,15 +33,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   const Status valid = validate_character(*loaded->character);
   require(valid.is_ok(), "what was read is not valid", valid);
-  std::vector<std::byte> written;
-  try {
-    written = gltf::glb_of(*loaded->character, *loaded, {});
-  } catch (const std::bad_alloc&) {
-    return 0;
-  }
-  LoadOptions again = options;
+  const auto written = save_glb(*loaded->character, *loaded);
+  if (!written && written.error().code() == StatusCode::limit_exceeded) return 0;
+  require(written.has_value(), "what was read cannot be written", written.error());
+  ReadOptions again = options;
   again.maximum_bytes = std::uint64_t{64} << 20;
-  const auto reloaded = gltf::read_character(written, {}, again);
+  const auto reloaded = load_glb(*written, again);
   require(reloaded.has_value(), "what was written cannot be read", reloaded.error());
   require(reloaded->character->meshes.size() == loaded->character->meshes.size(),
           "a mesh was lost or added", {});

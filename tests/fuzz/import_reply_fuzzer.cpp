@@ -1,6 +1,8 @@
 // Reads the reply of the helper process, as a model that has taken the process over could send it:
 // four bytes for the length of the head, the head, the GLB.
 
+#include <sunder/io/character_bytes.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -8,7 +10,6 @@
 #include <span>
 #include <string_view>
 
-#include "io/gltf_read/read.h"
 #include "io/import_messages/reply.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -20,6 +21,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view head(reinterpret_cast<const char*>(rest.data()), length);
   if (!sunder::import_messages::decode_head(head, "fuzz.fbx")) return 0;
   const auto glb = std::as_bytes(rest.subspan(length));
-  (void)sunder::gltf::read_character({glb.begin(), glb.end()}, {}, {});
+  (void)sunder::load_glb({glb.begin(), glb.end()});
   return 0;
 }

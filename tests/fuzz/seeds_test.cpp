@@ -1,6 +1,7 @@
 // Seeds of fuzz targets that the library accepts: a seed that is refused leads a fuzzer no further
 // than to the first check.
 
+#include <sunder/io/character_bytes.h>
 #include <sunder/io/operation_log.h>
 
 #include <cstddef>
@@ -18,7 +19,6 @@
 #include "fuzz/operations_of_bytes.h"
 #include "fuzz/snapshot_scene.h"
 #include "io/gltf/refusal.h"
-#include "io/gltf_read/read.h"
 #include "io/urdf/findings.h"
 #include "io/urdf/read_robot.h"
 
@@ -36,7 +36,7 @@ std::vector<std::byte> bytes_of(const std::string& text) {
 }
 
 TEST(FuzzSeeds, a_model_is_read) {
-  const auto loaded = gltf::read_character(bytes_of(seed("glb/strip.glb")), {}, {});
+  const auto loaded = load_glb(bytes_of(seed("glb/strip.glb")));
   EXPECT_TRUE(loaded) << loaded.error().text();
 }
 

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "io/gltf/parse_json.h"
+#include "io/gltf_decoders/parse_json.h"
 #include "support/machine/random.h"
 #include "support/machine/temporary_folder.h"
 #include "support/models/shared_models.h"

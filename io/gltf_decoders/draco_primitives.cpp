@@ -1,4 +1,4 @@
-#include "io/gltf_read/draco_primitives.h"
+#include "io/gltf_decoders/draco_primitives.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "io/gltf_read/meshopt_views.h"
+#include "io/gltf_decoders/meshopt_views.h"
 
 #include <array>
 #include <optional>

@@ -1,4 +1,4 @@
-#include "io/gltf/parse_json.h"
+#include "io/gltf_decoders/parse_json.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -9,10 +9,7 @@
 
 namespace sunder::gltf {
 
-/// Decodes the buffer views that EXT_meshopt_compression or KHR_meshopt_compression compress: the
-/// document becomes one without that extension, whose views have the decoded bytes. Saving writes
-/// these. Compressed data counts where a file has both.
-/// @return the views whose data a filter rounded.
+/// Decoders::meshopt_views, by meshoptimizer.
 std::vector<std::uint32_t> decode_meshopt_views(SourceDocument& document, DecodedData& decoded,
                                                 Notes& notes);
 
