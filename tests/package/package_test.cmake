@@ -18,6 +18,9 @@ file(GLOB_RECURSE installed RELATIVE ${prefix}/${INCLUDE_DIR} ${prefix}/${INCLUD
 if(NOT WITH_IO)
   list(FILTER written EXCLUDE REGEX "^sunder/io/")
 endif()
+if(NOT WITH_C)
+  list(FILTER written EXCLUDE REGEX "^sunder_c.h")
+endif()
 if(NOT WITH_CERES)
   list(FILTER written EXCLUDE REGEX "^sunder/coupled_refit/")
 endif()
@@ -49,10 +52,24 @@ set(common -G ${GENERATOR} -D CMAKE_CXX_COMPILER=${CXX_COMPILER} "-DCMAKE_CXX_FL
 
 run(${CMAKE_COMMAND} -S ${consumer} -B ${WORK}/find_package ${common}
   -D CMAKE_PREFIX_PATH=${prefix} -D CONSUMER_IO=${WITH_IO}
-  -D CONSUMER_COUPLED_REFIT=${WITH_CERES})
+  -D CONSUMER_COUPLED_REFIT=${WITH_CERES} -D CONSUMER_C=${WITH_C})
 run(${CMAKE_COMMAND} --build ${WORK}/find_package --config ${CONFIG})
 run(${CMAKE_CTEST_COMMAND} --test-dir ${WORK}/find_package -C ${CONFIG} --output-on-failure
   --no-tests=error)
+
+# The C library by pkg-config, wherever the package is.
+find_program(pkg_config pkg-config)
+find_program(c_compiler NAMES cc gcc clang)
+file(GLOB_RECURSE pc ${prefix}/sunder_c.pc)
+if(WITH_C AND pkg_config AND c_compiler AND NOT CXX_FLAGS MATCHES "sanitize")
+  cmake_path(GET pc PARENT_PATH pc_folder)
+  set(ENV{PKG_CONFIG_PATH} ${pc_folder})
+  execute_process(COMMAND ${pkg_config} --cflags --libs sunder_c OUTPUT_VARIABLE flags COMMAND_ERROR_IS_FATAL ANY)
+  separate_arguments(flags UNIX_COMMAND "${flags}")
+  run(${c_compiler} ${consumer}/c_consumer.c -o ${WORK}/c_consumer ${flags})
+  cmake_path(GET pc_folder PARENT_PATH ENV{LD_LIBRARY_PATH})
+  run(${WORK}/c_consumer)
+endif()
 
 # The runtime with Eigen only, as shared libraries: other packages are hidden from CMake, so a
 # dependency on one fails. The whole runtime is configured; the parts that the consumer needs are

@@ -1,0 +1,945 @@
+/* Sunder for C: rigged characters that are torn while they move. docs/c.md has a frame loop.
+ *
+ * Objects are named by numbers; 0 is none. A number that was destroyed, or that names an object of
+ * another kind, is refused: SUNDER_INVALID_HANDLE. Every object has one destroy function; objects
+ * that others need live on until those are destroyed. Calls return a status; sunder_last_error()
+ * has the text and sunder_last_error_index() the index of the last failure of the thread. A failing
+ * call changes nothing, and writes nothing through its output pointers.
+ *
+ * Structs that have a `struct_size` are made by sunder_default_...(), or, for outputs, get
+ * `x.struct_size = sizeof x` before the call; any other size is refused: SUNDER_INVALID_STRUCT. A
+ * null pointer to options means the defaults. Arrays that are handed in are read until the call
+ * returns. Pointers that a call gives ("views") are valid as their comment says. Texts are UTF-8.
+ * Units are metres, kilograms, seconds, radians; model space is right-handed. Matrices are 3 x 4,
+ * column after column, the translation last. Bits of results do not depend on the number of
+ * threads.
+ *
+ * Threads: different scenes are independent; one thread at a time per scene, but
+ * sunder_submit_...() may be called from any thread at any time. Characters, assets, pieces and
+ * bytes are immutable: any thread may use them, until one destroys them.
+ */
+#ifndef SUNDER_C_H
+#define SUNDER_C_H
+
+#include <stdint.h>
+
+#if defined(SUNDER_C_STATIC)
+#define SUNDER_C_API
+#elif defined(_WIN32) && defined(SUNDER_C_BUILDING)
+#define SUNDER_C_API __declspec(dllexport)
+#elif defined(_WIN32)
+#define SUNDER_C_API __declspec(dllimport)
+#elif defined(SUNDER_C_BUILDING)
+#define SUNDER_C_API [[gnu::visibility("default")]]
+#else
+#define SUNDER_C_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Status ---- */
+
+typedef int32_t sunder_status;
+
+enum {
+  SUNDER_OK = 0,
+  SUNDER_EMPTY_INPUT = 1,            /* nothing to work on */
+  SUNDER_SIZE_MISMATCH = 2,          /* two arrays that must agree in length do not */
+  SUNDER_INDEX_OUT_OF_RANGE = 3,     /* a bone, vertex, mesh, ... beyond its array */
+  SUNDER_NON_FINITE_VALUE = 4,       /* NaN or infinity */
+  SUNDER_WEIGHTS_NOT_NORMALIZED = 5, /* negative weights, or a sum that is not one */
+  SUNDER_NOT_A_TREE = 6,             /* a cycle, or a node with two parents */
+  SUNDER_INVALID_ARGUMENT = 7,       /* outside the documented range */
+  SUNDER_NOT_FOUND = 8,              /* no clip, bone, instance ... of that name */
+  SUNDER_FILE_NOT_FOUND = 9,
+  SUNDER_FILE_UNREADABLE = 10,
+  SUNDER_PATH_NOT_ALLOWED = 11, /* a model refers to another file, and there is no resolver */
+  SUNDER_UNSUPPORTED_FORMAT = 12,
+  SUNDER_UNSUPPORTED_FEATURE = 13,
+  SUNDER_MALFORMED_FILE = 14,
+  SUNDER_LIMIT_EXCEEDED = 15,    /* size, depth, memory or time */
+  SUNDER_CAPACITY_EXCEEDED = 16, /* a buffer of fixed capacity is full */
+  SUNDER_INTERNAL_ERROR = 17,    /* a bug in Sunder */
+  SUNDER_INVALID_HANDLE = 100,   /* none, destroyed, or of another kind */
+  SUNDER_INVALID_STRUCT = 101,   /* struct_size was not set, or is of another version */
+  SUNDER_NULL_POINTER = 102      /* a pointer that must not be null */
+};
+
+#define SUNDER_NONE 0xFFFFFFFFu /* no such index */
+
+/* Version of this header: major, minor, patch. */
+#define SUNDER_C_VERSION 0x000100u
+
+/* Parts that a build may lack. */
+enum {
+  SUNDER_FEATURE_THREADS = 1, /* scenes may have threads of their own */
+  SUNDER_FEATURE_HULLS = 2    /* sunder_get_piece_hulls() */
+};
+
+/* Version of the library, as SUNDER_C_VERSION. */
+SUNDER_C_API uint32_t sunder_version(void);
+/* SUNDER_FEATURE_... of the library. */
+SUNDER_C_API uint32_t sunder_features(void);
+/* Call it first, with SUNDER_C_VERSION and the features that the program needs.
+ * Fails: SUNDER_UNSUPPORTED_FEATURE, if the library is of another version or lacks a feature. */
+SUNDER_C_API sunder_status sunder_check_abi(uint32_t version, uint32_t features);
+/* "index_out_of_range"; never null. */
+SUNDER_C_API const char* sunder_status_name(sunder_status status);
+/* The text of the last failure of this thread, until its next failure; never null. At most 255
+ * bytes. */
+SUNDER_C_API const char* sunder_last_error(void);
+/* The element of which it speaks, or SUNDER_NONE. */
+SUNDER_C_API uint32_t sunder_last_error_index(void);
+
+/* ---- Bytes ---- */
+
+typedef uint32_t sunder_bytes; /* a file, a snapshot or a text that a call has made */
+
+/* A view, valid until the bytes are destroyed. `size` may be null: texts end with a zero that does
+ * not count. */
+SUNDER_C_API sunder_status sunder_get_bytes(sunder_bytes bytes, const uint8_t** data,
+                                            uint64_t* size);
+SUNDER_C_API sunder_status sunder_destroy_bytes(sunder_bytes bytes);
+
+/* ---- Characters ---- */
+
+typedef uint32_t
+    sunder_character; /* a rigged model: meshes and skins on one skeleton, with its clips */
+
+/* The transform of a bone, relative to its parent: translation * rotation * scale. */
+typedef struct sunder_transform {
+  float translation[3];
+  float rotation[4]; /* x y z w, unit length */
+  float scale[3];
+} sunder_transform;
+
+typedef struct sunder_bone {
+  const char* name; /* unique, not empty */
+  uint32_t parent;  /* less than the bone's own index, or SUNDER_NONE */
+  sunder_transform rest;
+  uint32_t reserved;
+} sunder_bone;
+
+typedef struct sunder_skin {
+  const char* name;
+  const uint32_t* bones;       /* per slot: a bone of the skeleton */
+  const float* bone_from_bind; /* per slot: 12 numbers, the inverse of the bone's bind transform */
+  uint32_t slot_count;
+  uint32_t reserved;
+} sunder_skin;
+
+typedef struct sunder_influence {
+  uint32_t slot; /* of the skin */
+  float weight;  /* in (0, 1] */
+} sunder_influence;
+
+/* Arrays have 3 numbers per vertex, or are null. */
+typedef struct sunder_morph_target {
+  const char* name;
+  const float* position_deltas;
+  const float* normal_deltas;
+  const float* tangent_deltas;
+} sunder_morph_target;
+
+typedef struct sunder_attribute {
+  const char* name;    /* "_FEATURE_ID_0" */
+  const float* values; /* per vertex: `components` numbers */
+  uint32_t components; /* 1 to 4 */
+  uint32_t is_label;   /* 1: copied from a vertex, not interpolated */
+} sunder_attribute;
+
+typedef struct sunder_submesh {
+  const char* name;
+  uint32_t material; /* index in the source file, or SUNDER_NONE */
+  uint32_t reserved;
+} sunder_submesh;
+
+/* A triangle mesh in bind space with one skin. */
+typedef struct sunder_mesh {
+  const char* name;
+  const float* positions;         /* 3 per vertex */
+  const float* normals;           /* 3 per vertex, or null */
+  const float* tangents;          /* 4 per vertex, or null; the last is the sign of the bitangent */
+  const float* const* uv_sets;    /* each 2 per vertex */
+  const float* const* color_sets; /* each 4 per vertex, linear */
+  const sunder_attribute* attributes;
+  const uint32_t* first_influence; /* vertex_count + 1 offsets into `influences` */
+  const sunder_influence* influences;
+  const sunder_morph_target* morph_targets;
+  const uint32_t*
+      triangles; /* 3 per triangle, counter-clockwise; one vertex three times: removed */
+  const uint32_t* triangle_submesh; /* per triangle */
+  const sunder_submesh* submeshes;
+  uint32_t skin;
+  uint32_t vertex_count;
+  uint32_t triangle_count;
+  uint32_t uv_set_count;
+  uint32_t color_set_count;
+  uint32_t attribute_count;
+  uint32_t morph_target_count;
+  uint32_t first_morph_weight; /* of target 0, in the weights of a pose */
+  uint32_t submesh_count;
+  uint32_t reserved;
+} sunder_mesh;
+
+enum {
+  SUNDER_TARGET_TRANSLATION = 0,
+  SUNDER_TARGET_ROTATION = 1,
+  SUNDER_TARGET_SCALE = 2,
+  SUNDER_TARGET_MORPH_WEIGHTS = 3
+};
+enum { SUNDER_INTERPOLATE_LINEAR = 0, SUNDER_INTERPOLATE_STEP = 1, SUNDER_INTERPOLATE_CUBIC = 2 };
+
+/* Keys of one animated value, as in glTF 2.0. */
+typedef struct sunder_channel {
+  const float* times;  /* seconds, ascending, >= 0 */
+  const float* values; /* per key: `width` numbers; cubic: three times as many */
+  uint32_t key_count;
+  uint32_t target;        /* SUNDER_TARGET_... */
+  uint32_t index;         /* the bone, or the first morph weight */
+  uint32_t width;         /* 3, 4 for rotations, or the number of morph weights */
+  uint32_t interpolation; /* SUNDER_INTERPOLATE_... */
+  uint32_t reserved;
+} sunder_channel;
+
+typedef struct sunder_clip {
+  const char* name;
+  const sunder_channel* channels;
+  uint32_t channel_count;
+  float duration; /* seconds: the time of the last key */
+} sunder_clip;
+
+typedef struct sunder_character_data {
+  uint32_t struct_size;
+  uint32_t bone_count;
+  uint32_t skin_count;
+  uint32_t mesh_count;
+  uint32_t clip_count;
+  uint32_t morph_weight_count;
+  const char* name;
+  const sunder_bone* bones;
+  const sunder_skin* skins;
+  const sunder_mesh* meshes;
+  const sunder_clip* clips;
+  const float* rest_morph_weights;
+} sunder_character_data;
+
+/* Gives the bytes of another file to which a model refers: a buffer, or an image when a model is
+ * saved. Sets `data` and `size`, which stay valid until `release` is called with the same `data`.
+ * Returns SUNDER_OK, or a failure. */
+typedef sunder_status (*sunder_read_file)(void* context, const char* uri, const uint8_t** data,
+                                          uint64_t* size);
+typedef void (*sunder_release_file)(void* context, const uint8_t* data);
+
+typedef struct sunder_load_options {
+  uint32_t struct_size;
+  uint32_t is_strict;               /* 1: refuses what would otherwise be repaired or dropped */
+  uint64_t maximum_bytes;           /* of the model and all files to which it refers */
+  uint64_t maximum_memory;          /* 0: 20 times the bytes, at least 64 MiB */
+  sunder_read_file read_file;       /* null: the model may refer to no other file. Kept until the
+                                       character is destroyed */
+  sunder_release_file release_file; /* may be null */
+  void* file_context;
+} sunder_load_options;
+
+/* One kind of thing that loading repaired, dropped or tells. */
+enum {
+  SUNDER_NOTE_INFORMATION = 0,
+  SUNDER_NOTE_REPAIRED = 1,
+  SUNDER_NOTE_DROPPED = 2,
+  SUNDER_NOTE_WARNING = 3
+};
+typedef struct sunder_note {
+  const char* place; /* "mesh 2 'Body'" */
+  const char* text;
+  uint32_t kind;  /* SUNDER_NOTE_... */
+  uint32_t count; /* vertices, keys ... concerned */
+} sunder_note;
+
+typedef struct sunder_save_options {
+  uint32_t struct_size;
+  uint32_t maximum_influences; /* per vertex: 4, 8, SUNDER_NONE: all, 0: as many as the source has,
+                                  at least 4 */
+} sunder_save_options;
+
+SUNDER_C_API sunder_character_data sunder_default_character_data(void);
+SUNDER_C_API sunder_load_options sunder_default_load_options(void);
+SUNDER_C_API sunder_save_options sunder_default_save_options(void);
+
+/* Copies a character from arrays. Fails with the first fault: its text says where. */
+SUNDER_C_API sunder_status sunder_create_character(const sunder_character_data* data,
+                                                   sunder_character* character);
+/* Reads a GLB, or glTF text, from memory, and copies it. Files compressed by Draco or meshopt are
+ * refused. */
+SUNDER_C_API sunder_status sunder_load_glb(const void* bytes, uint64_t size,
+                                           const sunder_load_options* options,
+                                           sunder_character* character);
+SUNDER_C_API sunder_status sunder_destroy_character(sunder_character character);
+/* A view of all arrays, valid until the character is destroyed. `data->struct_size` is set by the
+ * caller. */
+SUNDER_C_API sunder_status sunder_get_character(sunder_character character,
+                                                sunder_character_data* data);
+SUNDER_C_API sunder_status sunder_find_bone(sunder_character character, const char* name,
+                                            uint32_t* bone);
+SUNDER_C_API sunder_status sunder_find_clip(sunder_character character, const char* name,
+                                            uint32_t* clip);
+/* What loading noted. Views, valid until the character is destroyed. */
+SUNDER_C_API sunder_status sunder_get_notes(sunder_character character, const sunder_note** notes,
+                                            uint32_t* count);
+/* The character as a GLB. */
+SUNDER_C_API sunder_status sunder_save_glb(sunder_character character,
+                                           const sunder_save_options* options, sunder_bytes* glb);
+
+/* ---- Poses ---- */
+
+/* The transforms of a clip at a time, on the rest pose.
+ * transforms: one per bone, written; morph_weights: one per morph weight, written, or null. */
+SUNDER_C_API sunder_status sunder_sample_clip(sunder_character character, uint32_t clip,
+                                              double seconds, sunder_transform* transforms,
+                                              float* morph_weights);
+/* model_from_bone of each bone: 12 numbers per bone, written. transforms: one per bone; null: the
+ * rest pose. */
+SUNDER_C_API sunder_status sunder_compute_matrices(sunder_character character,
+                                                   const sunder_transform* transforms,
+                                                   double* model_from_bone);
+
+/* ---- Materials of tissue ---- */
+
+/* docs/particles.md explains the fields and has the sources of the presets. */
+typedef struct sunder_material {
+  uint32_t struct_size;
+  uint32_t reserved;
+  double return_frequency;   /* hertz, [0, 1.6e5] */
+  double damping_ratio;      /* [0, 1e6] */
+  double membrane_stiffness; /* N/m, [0, 1e12] */
+  double membrane_damping;   /* N s/m, [0, 1e12] */
+  double areal_density;      /* kg/m^2, [1e-12, 1e12] */
+  double range;              /* suggested size of particles, fraction of the diagonal, (0, 1] */
+  double stretch_limit;      /* >= 1, or 0: none */
+  double strength;           /* stretch at which tissue tears, > 1, or 0: never */
+  double toughness;          /* J/m, [0, 1e12] */
+  double flaw_length;        /* metres, [1e-9, 1e12] */
+} sunder_material;
+
+SUNDER_C_API sunder_material sunder_default_material(void);
+/* "skin", "fat", "muscle", "liver", "rubber", "foam", "cloth", "jelly". Fails: SUNDER_NOT_FOUND. */
+SUNDER_C_API sunder_status sunder_find_material(const char* name, sunder_material* material);
+/* The tension, N/m, under which a straight wound of `length` opens by `gap` metres in its middle.
+ */
+SUNDER_C_API sunder_status sunder_tension_for_gap(const sunder_material* material, double length,
+                                                  double gap, double* tension);
+
+/* ---- Assets: what the instances of one character share ---- */
+
+typedef uint32_t sunder_asset;
+
+enum { SUNDER_SKIN_LINEAR = 0, SUNDER_SKIN_DUAL_QUATERNION = 1 };
+enum {
+  SUNDER_WEIGHTS_BARYCENTRIC = 0,
+  SUNDER_WEIGHTS_POSE_EXACT = 1,
+  SUNDER_WEIGHTS_REFIT = 2,
+  SUNDER_WEIGHTS_EXACT = 3,
+  SUNDER_WEIGHTS_OF_MODEL = -1 /* in operations: those of the asset */
+};
+
+typedef struct sunder_asset_options {
+  uint32_t struct_size;
+  uint32_t is_soft;        /* 1: soft tissue; the fields below that speak of it count */
+  uint32_t poses_vertices; /* 0: a shader does; sunder_posed_mesh has no positions then */
+  uint32_t has_normals;    /* 1: posed, if a mesh has them */
+  uint32_t has_tangents;
+  uint32_t unit_length;        /* 1: normals and tangents are normalised */
+  uint32_t skinning;           /* SUNDER_SKIN_... */
+  int32_t weight_policy;       /* SUNDER_WEIGHTS_... of new vertices */
+  uint32_t maximum_influences; /* of new vertices; 0: all */
+  sunder_asset coarser;        /* a coarser level with the same bones, or 0 */
+  double coarser_below;        /* pixels: an instance less high shows the coarser level */
+  double particle_range;       /* size of particles: fraction of the diagonal; 0: that of the first
+                                  material */
+  uint64_t particle_seed;
+  double gravity[3];                /* m/s^2, on tissue */
+  double tension;                   /* N/m, pulls lips apart */
+  uint32_t adds_pose_strain;        /* 1: stretched tissue pulls more at its lips */
+  uint32_t material_count;          /* 0: one material of the defaults */
+  const sunder_material* materials; /* all particles start with the first */
+} sunder_asset_options;
+
+/* Triangles of an index buffer that one draw call draws. */
+typedef struct sunder_draw_range {
+  uint32_t submesh; /* which names the material */
+  uint32_t first_triangle;
+  uint32_t triangle_count;
+} sunder_draw_range;
+
+SUNDER_C_API sunder_asset_options sunder_default_asset_options(void);
+/* O(size of the character). Do it on a loading thread. */
+SUNDER_C_API sunder_status sunder_create_asset(sunder_character character,
+                                               const sunder_asset_options* options,
+                                               sunder_asset* asset);
+SUNDER_C_API sunder_status sunder_destroy_asset(sunder_asset asset);
+/* The index buffer of a mesh before any tear, 3 per triangle, and its draw calls: views, valid
+ * until the asset is destroyed. */
+SUNDER_C_API sunder_status sunder_get_asset_triangles(sunder_asset asset, uint32_t mesh,
+                                                      const uint32_t** triangles,
+                                                      uint32_t* triangle_count,
+                                                      const sunder_draw_range** ranges,
+                                                      uint32_t* range_count);
+
+/* ---- Scenes ---- */
+
+typedef uint32_t sunder_scene;
+typedef uint64_t
+    sunder_instance; /* of one scene; 0 is none. That of a destroyed one never names another */
+typedef uint64_t sunder_layer;   /* of one instance; 0 is none */
+typedef uint64_t sunder_command; /* ascending from 0 in the order in which commands are submitted */
+
+typedef void (*sunder_task)(const void* work, uint32_t index);
+/* Calls task(work, i) once for each i < count, on any threads, and returns when all have returned.
+ */
+typedef void (*sunder_parallel_for)(void* context, uint32_t count, sunder_task task,
+                                    const void* work);
+/* Calls task(data) once, on any thread, now or later. */
+typedef void (*sunder_run_in_background)(void* context, void (*task)(void* data), void* data);
+
+typedef struct sunder_scene_options {
+  uint32_t struct_size;
+  uint32_t threads;            /* of the scene: 0: one per core; 1: the calling thread does all */
+  uint32_t background_updates; /* 0: background work takes effect when it is done; n: exactly n
+                                  updates later */
+  uint32_t parallel_threads;   /* behind parallel_for */
+  double slower_below[2];      /* pixels: updated every second, every fourth frame */
+  sunder_parallel_for parallel_for; /* the caller's job system; null: threads of the scene */
+  void* parallel_context;
+  sunder_run_in_background background; /* null: a thread of the scene */
+  void* background_context;
+} sunder_scene_options;
+
+typedef struct sunder_spawn_options {
+  uint32_t struct_size;
+  uint32_t is_visible;
+  uint32_t vertices; /* fixed room for operations, per mesh; all three 0: it grows */
+  uint32_t triangles;
+  uint32_t operations;
+} sunder_spawn_options;
+
+enum { SUNDER_LAYER_WHOLE = 0, SUNDER_LAYER_ANIMATED = 1, SUNDER_LAYER_ADDITIVE = 2 };
+enum { SUNDER_PLAY_LOOP = 0, SUNDER_PLAY_PING_PONG = 1, SUNDER_PLAY_ONCE = 2 };
+enum { SUNDER_EASE_LINEAR = 0, SUNDER_EASE_SMOOTH = 1, SUNDER_EASE_IN = 2, SUNDER_EASE_OUT = 3 };
+
+typedef struct sunder_layer_options {
+  uint32_t struct_size;
+  uint32_t kind;   /* SUNDER_LAYER_... */
+  uint32_t mode;   /* SUNDER_PLAY_... */
+  uint32_t easing; /* SUNDER_EASE_... */
+  double time;     /* seconds into the clip */
+  double speed;
+  double fade_in;     /* seconds */
+  double fade_out;    /* seconds; a clip played once ends with it */
+  float weight;       /* in [0, 1] */
+  uint32_t mask_bone; /* only this bone and those below it; SUNDER_NONE: all */
+} sunder_layer_options;
+
+typedef struct sunder_layer_state {
+  uint32_t struct_size;
+  uint32_t is_over;
+  double time;
+  float weight;
+  uint32_t reserved;
+} sunder_layer_state;
+
+/* Figures of an update; times are wall time in microseconds, summed over threads but for `total`.
+ */
+typedef struct sunder_frame_stats {
+  uint32_t struct_size;
+  uint32_t instances, sampled, advanced, drawn, commands,
+      failed; /* numbers of instances and commands */
+  uint32_t settled_points, model_work;
+  uint32_t idle, unseen, waiting, in_background, unchanged, unsettled;
+  uint32_t reserved;
+  uint64_t frame, vertices;
+  double total, animation, operations, settling, tissue, drawing;
+} sunder_frame_stats;
+
+SUNDER_C_API sunder_scene_options sunder_default_scene_options(void);
+SUNDER_C_API sunder_spawn_options sunder_default_spawn_options(void);
+SUNDER_C_API sunder_layer_options sunder_default_layer_options(void);
+
+SUNDER_C_API sunder_status sunder_create_scene(const sunder_scene_options* options,
+                                               sunder_scene* scene);
+SUNDER_C_API sunder_status sunder_destroy_scene(sunder_scene scene);
+/* An instance in the rest pose. O(bones). */
+SUNDER_C_API sunder_status sunder_spawn(sunder_scene scene, sunder_asset asset,
+                                        const sunder_spawn_options* options,
+                                        sunder_instance* instance);
+SUNDER_C_API sunder_status sunder_destroy_instance(sunder_scene scene, sunder_instance instance);
+SUNDER_C_API sunder_status sunder_has_instance(sunder_scene scene, sunder_instance instance,
+                                               uint32_t* exists);
+SUNDER_C_API sunder_status sunder_get_instance_count(sunder_scene scene, uint32_t* count);
+SUNDER_C_API sunder_status sunder_set_visible(sunder_scene scene, sunder_instance instance,
+                                              uint32_t is_visible);
+/* Far instances are updated less often and show the coarser level. pixels: the height on the
+ * screen, > 0. */
+SUNDER_C_API sunder_status sunder_set_screen_height(sunder_scene scene, sunder_instance instance,
+                                                    double pixels);
+/* Takes now the memory that the first operation would take. O(size of the character). */
+SUNDER_C_API sunder_status sunder_prepare_to_tear(sunder_scene scene, sunder_instance instance);
+
+/* Plays a clip of the character. layer: written, or null. */
+SUNDER_C_API sunder_status sunder_play(sunder_scene scene, sunder_instance instance, uint32_t clip,
+                                       const sunder_layer_options* options, sunder_layer* layer);
+/* Plays a clip that fades in over all others (options->fade_in) and then ends them. */
+SUNDER_C_API sunder_status sunder_cross_fade(sunder_scene scene, sunder_instance instance,
+                                             uint32_t clip, const sunder_layer_options* options,
+                                             sunder_layer* layer);
+SUNDER_C_API sunder_status sunder_fade_layer(sunder_scene scene, sunder_instance instance,
+                                             sunder_layer layer, float weight, double seconds);
+/* Fades a layer out and ends it. */
+SUNDER_C_API sunder_status sunder_stop_layer(sunder_scene scene, sunder_instance instance,
+                                             sunder_layer layer, double seconds);
+SUNDER_C_API sunder_status sunder_seek_layer(sunder_scene scene, sunder_instance instance,
+                                             sunder_layer layer, double time);
+SUNDER_C_API sunder_status sunder_set_layer_speed(sunder_scene scene, sunder_instance instance,
+                                                  sunder_layer layer, double speed);
+SUNDER_C_API sunder_status sunder_get_layer(sunder_scene scene, sunder_instance instance,
+                                            sunder_layer layer, sunder_layer_state* state);
+/* Ends all that plays and holds the present pose. */
+SUNDER_C_API sunder_status sunder_stop(sunder_scene scene, sunder_instance instance);
+/* Sets the pose of the next update and ends what plays. model_from_bone: 12 numbers per bone;
+ * transforms: one per bone. morph_weights: as many as the character's; null: those of rest. */
+SUNDER_C_API sunder_status sunder_set_matrices(sunder_scene scene, sunder_instance instance,
+                                               const double* model_from_bone, uint32_t bone_count,
+                                               const float* morph_weights);
+SUNDER_C_API sunder_status sunder_set_transforms(sunder_scene scene, sunder_instance instance,
+                                                 const sunder_transform* transforms,
+                                                 uint32_t bone_count, const float* morph_weights);
+/* The pose of the last update: 12 numbers per bone, a view until the next update. */
+SUNDER_C_API sunder_status sunder_get_pose(sunder_scene scene, sunder_instance instance,
+                                           const double** model_from_bone, uint32_t* bone_count);
+
+/* Advances by a frame: samples clips, applies commands, steps tissue, poses the vertices that
+ * changed. seconds: >= 0. */
+SUNDER_C_API sunder_status sunder_update(sunder_scene scene, double seconds);
+/* Limits the optional work of the following updates; SUNDER_NONE: no limit. */
+SUNDER_C_API sunder_status sunder_set_budget(sunder_scene scene, uint32_t settled_points,
+                                             uint32_t model_work);
+SUNDER_C_API sunder_status sunder_get_frame_stats(sunder_scene scene, sunder_frame_stats* stats);
+/* The instances that the last update posed anew: a view until the next update. */
+SUNDER_C_API sunder_status sunder_get_drawn(sunder_scene scene, const sunder_instance** instances,
+                                            uint32_t* count);
+/* The level of detail that is shown: 0: the asset of the instance, 1: its coarser level ... */
+SUNDER_C_API sunder_status sunder_get_shown_level(sunder_scene scene, sunder_instance instance,
+                                                  uint32_t* level);
+
+/* ---- Meshes for drawing ---- */
+
+typedef struct sunder_range {
+  uint32_t first;
+  uint32_t count;
+} sunder_range;
+
+/* A triangle to be written into an index buffer. */
+typedef struct sunder_triangle_write {
+  uint32_t place; /* in triangles */
+  uint32_t vertices[3];
+} sunder_triangle_write;
+
+/* One mesh of an instance, and what changed in it since an epoch. Views, valid until the next
+ * update or change of the instance. */
+typedef struct sunder_posed_mesh {
+  uint32_t struct_size;
+  uint32_t vertex_count;
+  uint32_t triangle_capacity; /* the size that the index buffer needs, in triangles */
+  uint32_t range_count;
+  uint32_t dirty_vertex_count; /* numbers of ranges */
+  uint32_t dirty_attribute_count;
+  uint32_t triangle_write_count;
+  uint32_t initial_triangle_count;    /* not 0: the index buffer starts anew with these triangles */
+  uint64_t epoch;                     /* to be passed as `seen` next time */
+  const float* positions;             /* 3 per vertex, model space */
+  const float* normals;               /* 3 per vertex, or null */
+  const float* tangents;              /* 4 per vertex, or null */
+  const sunder_draw_range* ranges;    /* one draw call each */
+  const sunder_range* dirty_vertices; /* to be uploaded */
+  const sunder_range*
+      dirty_attributes; /* vertices whose other attributes are new: sunder_get_instance_mesh() */
+  const sunder_triangle_write* triangle_writes; /* in order */
+  const uint32_t* initial_triangles;
+} sunder_posed_mesh;
+
+/* Memory of the caller into which vertices are posed, such as a mapped buffer. Strides in bytes,
+ * multiples of 4; 0: packed. */
+typedef struct sunder_vertex_target {
+  uint32_t struct_size;
+  uint32_t vertex_count; /* room */
+  float* positions;      /* null: the instance has memory of its own again */
+  float* normals;        /* or null */
+  float* tangents;       /* or null */
+  uint32_t position_stride;
+  uint32_t normal_stride;
+  uint32_t tangent_stride;
+  uint32_t unit_length;
+} sunder_vertex_target;
+
+SUNDER_C_API sunder_vertex_target sunder_default_vertex_target(void);
+/* seen: the epoch up to which the caller's buffers are up to date; 0: there are none yet. O(changes
+ * since then). */
+SUNDER_C_API sunder_status sunder_get_posed_mesh(sunder_scene scene, sunder_instance instance,
+                                                 uint32_t mesh, uint64_t seen,
+                                                 sunder_posed_mesh* posed);
+SUNDER_C_API sunder_status sunder_set_vertex_target(sunder_scene scene, sunder_instance instance,
+                                                    uint32_t mesh,
+                                                    const sunder_vertex_target* target);
+/* A mesh of the torn character in bind space, with all attributes and weights. A view, valid until
+ * the next call that changes the instance, and the tables of pointers in it until the next call of
+ * this function for the scene. */
+SUNDER_C_API sunder_status sunder_get_instance_mesh(sunder_scene scene, sunder_instance instance,
+                                                    uint32_t mesh, sunder_mesh* view);
+/* The torn character as a GLB: the source document with the meshes that were torn. Pieces of
+ * characters from arrays have plain materials. */
+SUNDER_C_API sunder_status sunder_save_instance(sunder_scene scene, sunder_instance instance,
+                                                const sunder_save_options* options,
+                                                sunder_bytes* glb);
+
+/* ---- Operations ---- */
+
+/* One position of a blade: from outside the surface to how deep it reaches. Model space. */
+typedef struct sunder_blade {
+  double base[3];
+  double tip[3];
+} sunder_blade;
+
+enum { SUNDER_LAYERS_NEAREST = 0, SUNDER_LAYERS_ALL = 1 };
+
+typedef struct sunder_tear_options {
+  uint32_t struct_size;
+  uint32_t layers;             /* SUNDER_LAYERS_... that the blade tears */
+  double width;                /* of the gap, >= 0; 0: the lips coincide */
+  double wall_depth;           /* of the inner walls, >= 0; 0: none */
+  double lip_roll;             /* radius of the rims of walls, >= 0 */
+  uint32_t wall_material;      /* index in the source file; SUNDER_NONE: that of the lips */
+  int32_t weight_policy;       /* SUNDER_WEIGHTS_... of new vertices */
+  uint32_t maximum_influences; /* with a policy; 0: all */
+  uint32_t reserved;
+} sunder_tear_options;
+
+/* A cut by a plane. */
+typedef struct sunder_cut {
+  uint32_t struct_size;
+  uint32_t has_caps; /* 1: closes the opened sections */
+  double point[3];
+  double normal[3];     /* any length but zero */
+  const double* bounds; /* corners of a convex polygon, 3 numbers each; null: the whole plane */
+  const double*
+      sections;     /* places, 3 numbers each: only the section nearest to each is cut; or null */
+  const char* bone; /* only sections that this bone's branch moves; or null */
+  uint32_t bound_count;
+  uint32_t section_count;
+  uint32_t cap_material; /* index in the source file; SUNDER_NONE: that of the rim */
+  int32_t weight_policy;
+  uint32_t maximum_influences;
+  uint32_t has_first_hit; /* 1: only the section that this ray meets first is cut */
+  double ray_origin[3];
+  double ray_direction[3];
+} sunder_cut;
+
+/* A round hole. */
+typedef struct sunder_bore {
+  uint32_t struct_size;
+  uint32_t has_wall;
+  double origin[3];       /* outside the surface */
+  double direction[3];    /* any length but zero */
+  double radius;          /* > 0 */
+  double depth;           /* from the origin, > 0 */
+  double chord_tolerance; /* 0: 1 % of the radius */
+  uint32_t wall_material;
+  int32_t weight_policy;
+  uint32_t maximum_influences;
+  uint32_t reserved;
+} sunder_bore;
+
+enum { SUNDER_PIECE_FROZEN = 0, SUNDER_PIECE_ANIMATED = 1, SUNDER_PIECE_VANISHES = 2 };
+enum { SUNDER_AXES_PRINCIPAL = 0, SUNDER_AXES_MODEL = 1 };
+enum { SUNDER_SOLID_CLOSED = 0, SUNDER_SOLID_FANS = 1, SUNDER_SOLID_SHELL = 2 };
+
+/* A connected piece to be taken off. */
+typedef struct sunder_detach {
+  uint32_t struct_size;
+  uint32_t mesh;          /* with `triangle`: one of its triangles */
+  uint32_t triangle;      /* SUNDER_NONE: the piece nearest to `point` */
+  uint32_t motion;        /* SUNDER_PIECE_... */
+  uint32_t axes;          /* SUNDER_AXES_... of a frozen piece */
+  uint32_t open_surfaces; /* SUNDER_SOLID_FANS or SUNDER_SOLID_SHELL */
+  double point[3];
+  const char* bone;       /* with `point`: only triangles that this bone moves most; or null */
+  double density;         /* kg/m^3, > 0 */
+  double shell_thickness; /* metres; 0: 1 % of the square root of the area */
+} sunder_detach;
+
+typedef struct sunder_stroke_sampling {
+  uint32_t struct_size;
+  uint32_t reserved;
+  double minimum_distance; /* metres since the last blade that was used */
+  double minimum_seconds;
+} sunder_stroke_sampling;
+
+SUNDER_C_API sunder_tear_options sunder_default_tear_options(void);
+SUNDER_C_API sunder_cut sunder_default_cut(void);
+SUNDER_C_API sunder_bore sunder_default_bore(void);
+SUNDER_C_API sunder_detach sunder_default_detach(void);
+SUNDER_C_API sunder_stroke_sampling sunder_default_stroke_sampling(void);
+
+enum { SUNDER_IN_BACKGROUND = 1 }; /* flag: the operation takes effect in a later update */
+
+/* Commands are queued, and applied by the next update in the pose that the instance then has. Their
+ * outcomes: sunder_get_results(). command: written, or null. Any thread may call these at any time.
+ */
+SUNDER_C_API sunder_status sunder_submit_tear(sunder_scene scene, sunder_instance instance,
+                                              const sunder_blade* blades, uint32_t blade_count,
+                                              const sunder_tear_options* options, uint32_t flags,
+                                              sunder_command* command);
+SUNDER_C_API sunder_status sunder_submit_cut(sunder_scene scene, sunder_instance instance,
+                                             const sunder_cut* cut, uint32_t flags,
+                                             sunder_command* command);
+SUNDER_C_API sunder_status sunder_submit_drill(sunder_scene scene, sunder_instance instance,
+                                               const sunder_bore* bore, uint32_t flags,
+                                               sunder_command* command);
+/* A stroke over several frames. */
+SUNDER_C_API sunder_status sunder_submit_begin_stroke(sunder_scene scene, sunder_instance instance,
+                                                      const sunder_blade* blade,
+                                                      const sunder_tear_options* options,
+                                                      const sunder_stroke_sampling* sampling,
+                                                      sunder_command* command);
+SUNDER_C_API sunder_status sunder_submit_extend_stroke(sunder_scene scene, sunder_instance instance,
+                                                       const sunder_blade* blade, double seconds,
+                                                       sunder_command* command);
+SUNDER_C_API sunder_status sunder_submit_end_stroke(sunder_scene scene, sunder_instance instance,
+                                                    sunder_command* command);
+SUNDER_C_API sunder_status sunder_submit_cancel_stroke(sunder_scene scene, sunder_instance instance,
+                                                       sunder_command* command);
+SUNDER_C_API sunder_status sunder_submit_detach(sunder_scene scene, sunder_instance instance,
+                                                const sunder_detach* detach,
+                                                sunder_command* command);
+SUNDER_C_API sunder_status sunder_submit_undo(sunder_scene scene, sunder_instance instance,
+                                              sunder_command* command);
+SUNDER_C_API sunder_status sunder_submit_redo(sunder_scene scene, sunder_instance instance,
+                                              sunder_command* command);
+
+/* Applies an operation log (docs/operation_log.md) at once, in the poses that it names; tissue
+ * follows. The log as a whole: if an operation fails, those before it are undone. operation_count:
+ * written, or null. Fails: as reading the log (the text has the place in it), and as the operation
+ * (the index is its number). */
+SUNDER_C_API sunder_status sunder_apply_log(sunder_scene scene, sunder_instance instance,
+                                            const char* json, uint64_t size,
+                                            uint32_t* operation_count);
+/* The operations that are done and not undone, as a log that makes the same model again, bit for
+ * bit. */
+SUNDER_C_API sunder_status sunder_get_log(sunder_scene scene, sunder_instance instance,
+                                          sunder_bytes* json);
+/* A hash of all bits of the torn model: equal on every machine. 0: nothing was torn yet. O(size of
+ * the model). */
+SUNDER_C_API sunder_status sunder_get_digest(sunder_scene scene, sunder_instance instance,
+                                             uint64_t* digest);
+/* Numbers of operations that undo and redo can take. */
+SUNDER_C_API sunder_status sunder_get_undo_counts(sunder_scene scene, sunder_instance instance,
+                                                  uint32_t* undo, uint32_t* redo);
+
+/* ---- Results ---- */
+
+typedef uint32_t
+    sunder_piece; /* a part that came off: a character of its own, with mass and inertia */
+
+/* The outcome of a command in the last update. */
+typedef struct sunder_result {
+  sunder_command command;
+  sunder_instance instance;
+  const char* error;    /* empty if it succeeded */
+  sunder_status status; /* a command that failed changed nothing */
+  uint32_t error_index; /* SUNDER_NONE: none */
+  uint32_t runs;        /* of torn surface; 0: it missed */
+  uint32_t faces_crossed;
+  uint32_t vertices_added;
+  uint32_t triangles_added;
+  uint32_t triangles_retired;
+  uint32_t blocked; /* places where the surface could not be torn */
+  uint32_t caps;
+  uint32_t open_sections;    /* rims that got no cap or wall */
+  uint32_t separated_pieces; /* parts that hang together with nothing else now */
+  uint32_t has_piece;        /* 1: sunder_take_piece() */
+  double length;             /* of the tear on the posed surface */
+  double area_removed;       /* by a gap or bore */
+} sunder_result;
+
+/* A view, valid until the next update. Ascending by command. */
+SUNDER_C_API sunder_status sunder_get_results(sunder_scene scene, const sunder_result** results,
+                                              uint32_t* count);
+/* The piece of a detach in the last update. */
+SUNDER_C_API sunder_status sunder_take_piece(sunder_scene scene, sunder_command command,
+                                             sunder_piece* piece);
+SUNDER_C_API sunder_status sunder_destroy_piece(sunder_piece piece);
+
+typedef struct sunder_piece_info {
+  uint32_t struct_size;
+  uint32_t solid; /* SUNDER_SOLID_...: how its volume was found */
+  uint32_t holes;
+  uint32_t mesh_count;
+  double model_from_piece[12]; /* the frame of a frozen piece where it came off */
+  double centre[3];            /* of mass, model space */
+  double inertia[9];           /* about the centre, along the axes of the model, kg m^2 */
+  double inertia_piece[9];     /* along the axes of the piece */
+  double mass;
+  double volume;
+  double area;
+} sunder_piece_info;
+
+typedef struct sunder_hull {
+  const double* points;      /* 3 numbers each, in the frame of the piece */
+  const uint32_t* triangles; /* 3 numbers each, counter-clockwise */
+  uint32_t point_count;
+  uint32_t triangle_count;
+  uint32_t bone; /* whose part it is, or SUNDER_NONE */
+  uint32_t reserved;
+  double volume;
+} sunder_hull;
+
+SUNDER_C_API sunder_status sunder_get_piece(sunder_piece piece, sunder_piece_info* info);
+/* The piece as a character, for an asset of its own. Fails: SUNDER_NOT_FOUND for
+ * SUNDER_PIECE_VANISHES. */
+SUNDER_C_API sunder_status sunder_get_piece_character(sunder_piece piece,
+                                                      sunder_character* character);
+/* For each vertex of a mesh of the piece: the vertex of the torn mesh that it was. A view, valid
+ * until the piece is destroyed. */
+SUNDER_C_API sunder_status sunder_get_piece_vertices(sunder_piece piece, uint32_t mesh,
+                                                     uint32_t* torn_mesh,
+                                                     const uint32_t** torn_vertices,
+                                                     uint32_t* count);
+/* Convex hulls of a frozen piece for a physics engine, computed at the first call: at most
+ * `most_hulls` of at most `most_points` points. A view, valid until the next call for the piece.
+ * One thread at a time per piece. Fails: SUNDER_UNSUPPORTED_FEATURE without SUNDER_FEATURE_HULLS.
+ */
+SUNDER_C_API sunder_status sunder_get_piece_hulls(sunder_piece piece, uint32_t most_hulls,
+                                                  uint32_t most_points, const sunder_hull** hulls,
+                                                  uint32_t* count);
+/* Lets the soft instance of a piece, not updated yet, move on as the piece did. */
+SUNDER_C_API sunder_status sunder_inherit_motion(sunder_scene scene, sunder_instance instance,
+                                                 sunder_piece piece);
+
+/* ---- Tissue ---- */
+
+typedef struct sunder_tissue_info {
+  uint32_t struct_size;
+  uint32_t particle_count;
+  uint32_t point_count; /* of the surface: vertices at one place are one point */
+  uint32_t is_awake;    /* 0: nothing moves */
+} sunder_tissue_info;
+
+enum {
+  SUNDER_COLLIDER_SPHERE = 0,
+  SUNDER_COLLIDER_CAPSULE = 1,
+  SUNDER_COLLIDER_BOX = 2,
+  SUNDER_COLLIDER_HALF_SPACE = 3
+};
+
+/* A rigid shape that pushes tissue away, in its own frame: capsules lie along y, half-spaces below
+ * y = 0. */
+typedef struct sunder_collider {
+  uint32_t shape; /* SUNDER_COLLIDER_... */
+  uint32_t reserved;
+  double size[3];     /* sphere: radius; capsule: radius, half length; box: half sizes */
+  double place[3];    /* origin of the frame, model space */
+  double rotation[4]; /* x y z w, unit length */
+  double friction;    /* >= 0 */
+} sunder_collider;
+
+/* These need a soft instance after sunder_prepare_to_tear() or its first operation: else
+ * SUNDER_NOT_FOUND. */
+SUNDER_C_API sunder_status sunder_get_tissue(sunder_scene scene, sunder_instance instance,
+                                             sunder_tissue_info* info);
+/* The point of the surface at a vertex, or SUNDER_NONE. */
+SUNDER_C_API sunder_status sunder_get_point(sunder_scene scene, sunder_instance instance,
+                                            uint32_t mesh, uint32_t vertex, uint32_t* point);
+/* Changes a material wherever it is used. */
+SUNDER_C_API sunder_status sunder_change_material(sunder_scene scene, sunder_instance instance,
+                                                  uint32_t index, const sunder_material* material);
+SUNDER_C_API sunder_status sunder_set_gravity(sunder_scene scene, sunder_instance instance,
+                                              const double gravity[3]);
+SUNDER_C_API sunder_status sunder_set_tension(sunder_scene scene, sunder_instance instance,
+                                              double newtons_per_metre, uint32_t adds_pose_strain);
+SUNDER_C_API sunder_status sunder_add_impulse(sunder_scene scene, sunder_instance instance,
+                                              uint32_t point, const double newton_seconds[3]);
+/* Pulls a point to a place in model space. stiffness: 1/s^2; 0: the default. */
+SUNDER_C_API sunder_status sunder_hold_point(sunder_scene scene, sunder_instance instance,
+                                             uint32_t point, const double target[3],
+                                             double stiffness, uint64_t* hold);
+SUNDER_C_API sunder_status sunder_move_hold(sunder_scene scene, sunder_instance instance,
+                                            uint64_t hold, const double target[3]);
+SUNDER_C_API sunder_status sunder_release_hold(sunder_scene scene, sunder_instance instance,
+                                               uint64_t hold);
+/* Replaces all colliders. */
+SUNDER_C_API sunder_status sunder_set_colliders(sunder_scene scene, sunder_instance instance,
+                                                const sunder_collider* colliders, uint32_t count);
+/* The position of a collider at the end of the next update; its velocity follows. */
+SUNDER_C_API sunder_status sunder_move_collider(sunder_scene scene, sunder_instance instance,
+                                                uint32_t collider, const double place[3],
+                                                const double rotation[4]);
+
+/* ---- Contact ---- */
+
+typedef struct sunder_contact {
+  double place[3];  /* on the drawn surface, model space */
+  double normal[3]; /* of the triangle */
+  double distance;  /* from the origin, base, axis or point of the query */
+  double depth;     /* below the surface */
+  double barycentric[3];
+  uint32_t mesh;
+  uint32_t triangle;
+  uint32_t submesh;
+  uint32_t material;
+  uint32_t bone;   /* the one with most weight there */
+  uint32_t enters; /* 1: from outside to inside */
+} sunder_contact;
+
+/* Where rays, blades and points meet the surface as it was drawn last. has_hit: 0: nowhere, and
+ * nothing else is written. The first query after a change of the instance: O(faces that changed +
+ * bones); others O(log faces). They need sunder_prepare_to_tear() or an operation before, and one
+ * update. */
+SUNDER_C_API sunder_status sunder_cast_ray(sunder_scene scene, sunder_instance instance,
+                                           const double origin[3], const double direction[3],
+                                           double length, sunder_contact* contact,
+                                           uint32_t* has_hit);
+SUNDER_C_API sunder_status sunder_find_nearest(sunder_scene scene, sunder_instance instance,
+                                               const double point[3], double most_distance,
+                                               sunder_contact* contact, uint32_t* has_hit);
+/* All places where a blade crosses the surface, from base to tip; at most `capacity` are written.
+ * count: of all. */
+SUNDER_C_API sunder_status sunder_find_blade_contacts(sunder_scene scene, sunder_instance instance,
+                                                      const sunder_blade* blade,
+                                                      sunder_contact* contacts, uint32_t capacity,
+                                                      uint32_t* count);
+
+/* ---- Snapshots ---- */
+
+typedef struct sunder_restore_options {
+  uint32_t struct_size;
+  uint32_t instances;  /* most instances */
+  uint64_t operations; /* most operations, which are replayed */
+  uint64_t memory;     /* most bytes */
+} sunder_restore_options;
+
+SUNDER_C_API sunder_restore_options sunder_default_restore_options(void);
+/* The state of all instances, without their assets. Fails while a stroke or a background command is
+ * in progress. */
+SUNDER_C_API sunder_status sunder_save_scene(sunder_scene scene, sunder_bytes* snapshot);
+/* Makes the scene one that was saved: it goes on with the same bits, and the same instances. The
+ * bytes are not trusted. */
+SUNDER_C_API sunder_status sunder_restore_scene(sunder_scene scene, const void* snapshot,
+                                                uint64_t size, const sunder_asset* assets,
+                                                uint32_t asset_count,
+                                                const sunder_restore_options* options);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* SUNDER_C_H */
