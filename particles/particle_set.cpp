@@ -9,6 +9,7 @@
 
 #include "core/internal/ordered.h"
 #include "core/internal/out_of_memory.h"
+#include "core/internal/threads.h"
 #include "particles/clusters/check_pose.h"
 #include "particles/clusters/decompose_model.h"
 #include "particles/clusters/gradients.h"
@@ -130,7 +131,7 @@ std::span<const ParticleGradients> ParticleSet::gradients(const TornModel& model
       return structure.gradients->known();
     // A fork may be copying it.
     const std::shared_ptr<particles::ForkLink> link = data_->fork.lock();
-    std::unique_lock<std::mutex> lock;
+    std::unique_lock<Mutex> lock;
     if (link) lock = std::unique_lock(link->mutex);
     return structure.gradients->of(model.surface(), structure);
   } catch (const std::bad_alloc&) {

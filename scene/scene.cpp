@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "core/internal/out_of_memory.h"
+#include "core/internal/threads.h"
 #include "scene/scene_state.h"
 
 namespace sunder {
@@ -141,7 +142,7 @@ Result<Scene> Scene::create(const SceneOptions& options) {
   try {
     auto state = std::make_unique<State>(options);
     state->parallel_for = options.parallel_for;
-    const std::uint32_t cores = std::max(1u, std::thread::hardware_concurrency());
+    const std::uint32_t cores = std::max(1u, Thread::hardware_concurrency());
     if (options.parallel_for.run == nullptr && options.threads != 1) {
       state->pool =
           std::make_unique<scene::ThreadPool>(options.threads == 0 ? cores : options.threads);

@@ -2,8 +2,9 @@
 
 #include <array>
 #include <atomic>
-#include <mutex>
 #include <vector>
+
+#include "core/internal/threads.h"
 
 namespace sunder::c {
 namespace {
@@ -68,7 +69,7 @@ class Registry {
     used_ += kChunkSize;
   }
 
-  std::mutex mutex_;
+  Mutex mutex_;
   std::array<std::atomic<Chunk*>, (kMostSlots >> kChunkBits)> chunks_{};
   std::vector<std::uint32_t> free_;  ///< The next one last.
   std::uint32_t used_ = 0;

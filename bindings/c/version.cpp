@@ -1,6 +1,7 @@
 #include <sunder/bodies/convex_hulls.h>
 
 #include "bindings/c/errors.h"
+#include "core/internal/threads.h"
 
 using namespace sunder::c;
 
@@ -9,7 +10,8 @@ extern "C" {
 uint32_t sunder_version(void) { return SUNDER_C_VERSION; }
 
 uint32_t sunder_features(void) {
-  return SUNDER_FEATURE_THREADS | (sunder::has_convex_hulls() ? SUNDER_FEATURE_HULLS : 0);
+  return (sunder::kHasThreads ? SUNDER_FEATURE_THREADS : 0) |
+         (sunder::has_convex_hulls() ? SUNDER_FEATURE_HULLS : 0);
 }
 
 sunder_status sunder_check_abi(uint32_t version, uint32_t features) {

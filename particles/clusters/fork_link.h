@@ -1,7 +1,8 @@
 #pragma once
 
 #include <memory>
-#include <mutex>
+
+#include "core/internal/threads.h"
 
 namespace sunder::particles {
 
@@ -9,7 +10,7 @@ struct Structure;
 
 /// Connects a set with its fork, which copies the set on another thread.
 struct ForkLink {
-  std::mutex mutex;                         ///< Held while the structure is copied.
+  Mutex mutex;                              ///< Held while the structure is copied.
   const Structure* from = nullptr;          ///< Null: the fork has ended.
   std::shared_ptr<const Structure> shared;  ///< Of the asset.
 };

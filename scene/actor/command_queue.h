@@ -2,8 +2,9 @@
 
 #include <sunder/scene/scene_command.h>
 
-#include <mutex>
 #include <vector>
+
+#include "core/internal/threads.h"
 
 namespace sunder::scene {
 
@@ -31,7 +32,7 @@ class CommandQueue {
   }
 
  private:
-  std::mutex mutex_;
+  Mutex mutex_;
   std::vector<QueuedCommand> waiting_;
   CommandId next_ = 1;
 };

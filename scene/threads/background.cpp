@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "core/internal/threads.h"
+
 namespace sunder::scene {
 
 Background::~Background() {
@@ -29,9 +31,13 @@ void Background::start(std::function<void()> work) {
     hook_.run(hook_.context, run, held.release());
     return;
   }
+  if (!kHasThreads) {
+    job();
+    return;
+  }
   {
     const std::lock_guard lock(mutex_);
-    if (!thread_.joinable()) thread_ = std::thread([this] { serve(); });
+    if (!thread_.joinable()) thread_ = Thread([this] { serve(); });
     jobs_.push_back(std::move(job));
   }
   is_called_.notify_one();

@@ -2,19 +2,17 @@
 
 #include <sunder/scene/scene.h>
 
-#include <condition_variable>
 #include <deque>
 #include <functional>
 #include <memory>
-#include <mutex>
-#include <thread>
 
+#include "core/internal/threads.h"
 #include "scene/threads/once_job.h"
 
 namespace sunder::scene {
 
 /// Runs jobs in the background, one after the other: by the hook of the caller, or on a thread that
-/// starts with the first job.
+/// starts with the first job. Without threads and hook they run at once.
 class Background {
  public:
   /// @param updates  see SceneOptions::background_updates.
@@ -34,11 +32,11 @@ class Background {
 
   BackgroundHook hook_;
   std::uint32_t updates_;
-  std::mutex mutex_;
-  std::condition_variable is_called_;
+  Mutex mutex_;
+  Condition is_called_;
   std::deque<std::function<void()>> jobs_;
   bool is_stopping_ = false;
-  std::thread thread_;
+  Thread thread_;
 };
 
 }  // namespace sunder::scene

@@ -2,12 +2,14 @@
 
 #include <utility>
 
+#include "core/internal/threads.h"
+
 namespace sunder::scene {
 
 ThreadPool::ThreadPool(std::uint32_t threads) {
   try {
     threads_.reserve(threads);
-    while (threads_.size() + 1 < threads) threads_.emplace_back([this] { serve(); });
+    while (kHasThreads && threads_.size() + 1 < threads) threads_.emplace_back([this] { serve(); });
   } catch (...) {
     stop();
     throw;
@@ -22,7 +24,7 @@ void ThreadPool::stop() noexcept {
     is_stopping_ = true;
   }
   is_called_.notify_all();
-  for (std::thread& thread : threads_) thread.join();
+  for (Thread& thread : threads_) thread.join();
 }
 
 ParallelFor ThreadPool::parallel_for() {

@@ -3,12 +3,11 @@
 #include <sunder/core/parallel_for.h>
 
 #include <atomic>
-#include <condition_variable>
 #include <cstdint>
 #include <exception>
-#include <mutex>
-#include <thread>
 #include <vector>
+
+#include "core/internal/threads.h"
 
 namespace sunder::scene {
 
@@ -37,15 +36,15 @@ class ThreadPool {
   void serve();
   void stop() noexcept;
 
-  std::mutex mutex_;
-  std::condition_variable is_called_, is_done_;
+  Mutex mutex_;
+  Condition is_called_, is_done_;
   Job job_;
   std::uint64_t call_ = 0;  ///< Number of the job.
   std::uint32_t busy_ = 0;  ///< Threads of the pool that work on it.
   bool is_stopping_ = false;
   std::exception_ptr thrown_;           ///< By a task of the job.
   std::atomic<std::uint32_t> next_{0};  ///< The next task of the job.
-  std::vector<std::thread> threads_;
+  std::vector<Thread> threads_;
 };
 
 }  // namespace sunder::scene

@@ -4,9 +4,9 @@
 #include <sunder/tear/torn_model.h>
 
 #include <memory>
-#include <mutex>
 #include <vector>
 
+#include "core/internal/threads.h"
 #include "tear/model/model_state.h"
 #include "tear/posed/source_trees.h"
 
@@ -34,7 +34,7 @@ struct TornAsset::Parts {
   std::shared_ptr<const tear::SurfaceCells> cells;  ///< Null in a private asset.
   bool is_private = false;
 
-  std::mutex mutex;  ///< Of what follows.
+  Mutex mutex;  ///< Of what follows.
   std::vector<std::unique_ptr<TornModel::State>> idle;
   std::size_t kept = 1;  ///< At most so many idle workspaces.
 };

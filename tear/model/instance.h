@@ -4,8 +4,8 @@
 
 #include <atomic>
 #include <memory>
-#include <mutex>
 
+#include "core/internal/threads.h"
 #include "tear/model/asset_parts.h"
 
 namespace sunder {
@@ -51,7 +51,7 @@ struct TornModel::Instance {
  private:
   State& take_workspace();
 
-  mutable std::mutex unpacking_;  ///< Const calls on several threads may unpack.
+  mutable Mutex unpacking_;  ///< Const calls on several threads may unpack.
   /// Null if there are none, and while the model has a workspace.
   std::unique_ptr<tear::PackedOperations> packed_;
   std::atomic<State*> workspace_ = nullptr;  ///< Owned.

@@ -3,9 +3,9 @@
 #include <sunder/core/character.h>
 
 #include <memory>
-#include <mutex>
 #include <vector>
 
+#include "core/internal/threads.h"
 #include "tear/posed/patch_tree.h"
 
 namespace sunder::tear {
@@ -24,7 +24,7 @@ class SourceTrees {
 
  private:
   const Character& source_;
-  mutable std::mutex building_;
+  mutable Mutex building_;
   mutable std::vector<std::shared_ptr<const PatchTree>> trees_;
   mutable bool is_built_ = false;
 };

@@ -1,0 +1,1 @@
+// A module without main(): its functions are those of the C library.
