@@ -60,6 +60,9 @@ Index main_root(const std::vector<Bone>& bones, const std::vector<double>& weigh
   return root;
 }
 
+/// See Adoption::with_own_parents().
+constexpr double kLeastOfStrongest = 0.4;
+
 /// Hangs bones whose surface adjoins no bone above them on the bone that they share most with,
 /// those with the strongest bond first.
 class Adoption {
@@ -70,6 +73,8 @@ class Adoption {
     const Index root = main_root(bones, weights);
     for (Index bone = 0; bone < bones.size(); ++bone)
       if (weights[bone] > 0 && bone != root && !adjoins_above(bone)) waiting_.push_back(bone);
+    waited_.assign(bones.size(), false);
+    for (const Index bone : waiting_) waited_[bone] = true;
   }
 
   void run() {
@@ -86,7 +91,7 @@ class Adoption {
           parent = other;
         }
       if (parent == kNone) return;
-      parents_[waiting_[place]] = parent;
+      parents_[waiting_[place]] = with_own_parents(waiting_[place], parent, strongest);
       waiting_.erase(waiting_.begin() + static_cast<std::ptrdiff_t>(place));
     }
   }
@@ -96,6 +101,19 @@ class Adoption {
     for (Index above = parents_[bone]; above != kNone; above = parents_[above])
       if (shared_.of(bone, above) > 0) return true;
     return false;
+  }
+  /// The bone that a bone shares most with of those that never waited, if that is not much less
+  /// than the strongest bond; otherwise the one with that bond. Two thighs may share more of a
+  /// skirt with each other than each with the hips.
+  [[nodiscard]] Index with_own_parents(Index bone, Index strongest, double bond) const {
+    double most = kLeastOfStrongest * bond;
+    Index parent = strongest;
+    for (Index other = 0; other < parents_.size(); ++other)
+      if (!waited_[other] && is_settled(other) && shared_.of(bone, other) > most) {
+        most = shared_.of(bone, other);
+        parent = other;
+      }
+    return parent;
   }
   /// Whether neither a bone nor one above it waits for a parent.
   [[nodiscard]] bool is_settled(Index bone) const {
@@ -107,6 +125,7 @@ class Adoption {
   const SharedSurface& shared_;
   std::vector<Index>& parents_;
   std::vector<Index> waiting_;
+  std::vector<bool> waited_;  ///< One per bone.
 };
 
 }  // namespace

@@ -28,7 +28,7 @@ std::vector<BoneBinding> bind_bones(const aiMesh& mesh, std::uint32_t mesh_node,
     Mat4d offset = to_eigen(bone.mOffsetMatrix);
     const bool usable = is_usable_bind(offset);
 
-    binding.node = tree.find(bone.mName);
+    binding.node = tree.find_bone(mesh_node, bone.mName);
     if (binding.node == kNone) {
       const Mat4d model_from_bone =
           usable ? Mat4d(model_from_mesh * offset.inverse()) : model_from_mesh;

@@ -1,10 +1,12 @@
 #include "io/assimp/convert_scene.h"
 
 #include <string>
+#include <utility>
 
 #include <assimp/Importer.hpp>
 #include <assimp/version.h>
 
+#include "io/assimp/collada_joints.h"
 #include "io/assimp/convert_animations.h"
 #include "io/assimp/convert_meshes.h"
 #include "io/assimp/failure.h"
@@ -49,6 +51,7 @@ ImportedGlb read_and_convert(const ModelFile& model, AssetFiles& assets,
   Notes notes;
   // The scene is the importer's, which is not const.
   if (extension == "fbx") take_fbx_transforms(const_cast<aiScene&>(scene), model, notes);
+  JointNodes joints = extension == "dae" ? collada_joints(scene, model, notes) : JointNodes();
   note_losses_of_importer(read, notes);
   const ModelSpace space = model_space_of(scene, extension, notes);
   ImportedGlb result;
@@ -58,7 +61,7 @@ ImportedGlb read_and_convert(const ModelFile& model, AssetFiles& assets,
   GlbBuilder glb(options.maximum_bytes);
   glb.document["asset"] = {{"version", "2.0"},
                            {"generator", "Sunder, from " + result.report.format}};
-  SceneTree tree(scene, space, notes);
+  SceneTree tree(scene, space, std::move(joints), notes);
   MaterialWriter materials(scene, assets, glb, notes);
   const std::vector<MorphedNode> morphed =
       convert_meshes(scene, read.is_de_indexed, extension, tree, materials, glb, notes);

@@ -35,7 +35,8 @@ std::string to_string(const aiString& text) {
   return {text.data, std::min<std::size_t>(text.length, sizeof text.data)};
 }
 
-SceneTree::SceneTree(const aiScene& scene, const ModelSpace& space, Notes& notes) {
+SceneTree::SceneTree(const aiScene& scene, const ModelSpace& space, JointNodes joints, Notes& notes)
+    : joints_(std::move(joints)) {
   for (unsigned i = 0; i < scene.mNumAnimations; ++i)
     for (unsigned k = 0; k < scene.mAnimations[i]->mNumChannels; ++k)
       animated_.insert(to_string(scene.mAnimations[i]->mChannels[k]->mNodeName));
@@ -108,6 +109,7 @@ std::uint32_t SceneTree::add_node(const aiNode& source, std::uint32_t parent, No
   }
   node.parent = parent;
   const std::uint32_t index = push(std::move(node));
+  node_of_source_.emplace(&source, index);
   if (!node_of_name_.emplace(source_name, index).second && !source_name.empty() &&
       animated_.contains(source_name))
     notes.inform("node '" + readable + "'",
@@ -134,6 +136,11 @@ std::string SceneTree::unique_name(const std::string& wanted) {
 std::uint32_t SceneTree::find(const aiString& name) const {
   const auto found = node_of_name_.find(to_string(name));
   return found == node_of_name_.end() ? kNone : found->second;
+}
+
+std::uint32_t SceneTree::find_bone(std::uint32_t mesh_node, const aiString& bone) const {
+  const auto joint = joints_.find({nodes_[mesh_node].source, to_string(bone)});
+  return joint == joints_.end() ? find(bone) : node_of_source_.at(joint->second);
 }
 
 std::uint32_t SceneTree::add(std::uint32_t parent, const std::string& name,

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <unordered_map>
 #include <unordered_set>
+#include <utility>
 #include <vector>
 
 #include <assimp/scene.h>
@@ -13,6 +15,10 @@
 #include "io/assimp/notes.h"
 
 namespace sunder::assimp_import {
+
+/// The node of a bone, by the node that shows its mesh and by the bone's name. Bones without an
+/// entry are found by their names alone.
+using JointNodes = std::map<std::pair<const aiNode*, std::string>, const aiNode*>;
 
 struct SceneNode {
   std::string name;              ///< UTF-8, unique or empty.
@@ -28,7 +34,7 @@ struct SceneNode {
 class SceneTree {
  public:
   /// Throws ImportFailure (limit_exceeded) if the tree has more than 1024 levels.
-  SceneTree(const aiScene& scene, const ModelSpace& space, Notes& notes);
+  SceneTree(const aiScene& scene, const ModelSpace& space, JointNodes joints, Notes& notes);
 
   [[nodiscard]] const std::vector<SceneNode>& nodes() const { return nodes_; }
   SceneNode& operator[](std::uint32_t node) { return nodes_[node]; }
@@ -37,6 +43,8 @@ class SceneTree {
   /// The node that assimp identifies by a name: the first one in the file's order. kNone if there
   /// is none.
   [[nodiscard]] std::uint32_t find(const aiString& name) const;
+  /// The node of a bone of a mesh: by the joints that were given, otherwise by its name.
+  [[nodiscard]] std::uint32_t find_bone(std::uint32_t mesh_node, const aiString& bone) const;
   /// Adds a node. Its name is made unique; `source_name`, if given, is the name by which it is
   /// found.
   std::uint32_t add(std::uint32_t parent, const std::string& name, const Mat4d& parent_from_node,
@@ -49,9 +57,11 @@ class SceneTree {
   std::uint32_t push(SceneNode node);
   std::string unique_name(const std::string& wanted);
 
+  JointNodes joints_;
   std::vector<SceneNode> nodes_;
   /// Key: the name's bytes in the file.
   std::unordered_map<std::string, std::uint32_t> node_of_name_;
+  std::unordered_map<const aiNode*, std::uint32_t> node_of_source_;
   std::unordered_set<std::string> names_;
   std::unordered_map<std::string, std::uint32_t> name_uses_;
   std::unordered_set<std::string> animated_;

@@ -113,6 +113,18 @@ void GlbDraft::embed_image(Json& image, std::uint64_t& bytes_left) {
   image["bufferView"] = add_view(bytes, ViewTarget::none);
 }
 
+void GlbDraft::remove_bytes(std::span<const Gap> gaps) {
+  std::uint64_t written = gaps.empty() ? binary_.size() : gaps.front().begin;
+  for (std::size_t i = 0; i < gaps.size(); ++i) {
+    const std::uint64_t begin = gaps[i].begin + gaps[i].length,
+                        end = i + 1 < gaps.size() ? gaps[i + 1].begin : binary_.size();
+    std::memmove(binary_.data() + written, binary_.data() + begin, end - begin);
+    written += end - begin;
+  }
+  binary_.resize(written);
+  if (binary_.empty()) json.erase("buffers");
+}
+
 std::vector<std::byte> GlbDraft::finish() {
   if (!binary_.empty()) {
     Json& buffers = list_of(json, "buffers");

@@ -11,8 +11,8 @@ namespace sunder::gltf {
 /// A list of a JSON object; added if it is absent.
 Json& list_of(Json& object, const char* name);
 
-/// A document that will be written as GLB: its JSON, and one BIN chunk that only grows, so existing
-/// indices stay valid.
+/// A document that will be written as GLB: its JSON, and one BIN chunk. The chunk only grows until
+/// remove_bytes() is called, so existing indices stay valid.
 class GlbDraft {
  public:
   /// Copies the document and joins all its buffers into one.
@@ -34,6 +34,14 @@ class GlbDraft {
   /// Embeds the images of the source's folder. Images that cannot be read, or whose kind glTF does
   /// not support, keep their URI.
   void embed_images();
+
+  /// A part of the BIN chunk.
+  struct Gap {
+    std::uint64_t begin = 0, length = 0;
+  };
+  /// Removes parts of the BIN chunk, which are sorted and do not overlap. Buffer views are not
+  /// corrected. Without a byte left, the document has no buffer.
+  void remove_bytes(std::span<const Gap> gaps);
 
   /// The bytes of the BIN chunk so far.
   [[nodiscard]] std::span<const std::byte> bytes() const { return binary_; }

@@ -296,16 +296,6 @@ constexpr List kLists[] = {{"buffers", kBuffer},      {"bufferViews", kBufferVie
                            {"nodes", kNode},          {"scenes", kScene},
                            {"animations", kAnimation}};
 
-/// A valid entry in place of one that cannot be kept. Null: the entry is handled elsewhere.
-Json empty_entry(std::string_view list) {
-  if (list == "bufferViews") return {{"buffer", 0}, {"byteLength", 1}};
-  if (list == "accessors") return {{"componentType", 5126}, {"count", 1}, {"type", "SCALAR"}};
-  if (list == "skins") return {{"joints", {0}}};
-  if (list == "cameras")
-    return {{"type", "perspective"}, {"perspective", {{"yfov", 1.0}, {"znear", 0.1}}}};
-  return Json::object();
-}
-
 class Enforcer {
  public:
   explicit Enforcer(Json& document) : document_(document) {}
@@ -597,6 +587,15 @@ class Enforcer {
 };
 
 }  // namespace
+
+Json empty_entry(std::string_view list) {
+  if (list == "bufferViews") return {{"buffer", 0}, {"byteLength", 1}};
+  if (list == "accessors") return {{"componentType", 5126}, {"count", 1}, {"type", "SCALAR"}};
+  if (list == "skins") return {{"joints", {0}}};
+  if (list == "cameras")
+    return {{"type", "perspective"}, {"perspective", {{"yfov", 1.0}, {"znear", 0.1}}}};
+  return Json::object();
+}
 
 SchemaFaults enforce_schema(Json& document) { return Enforcer(document).run(); }
 

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 
 #include "io/gltf/cursor.h"
 
@@ -23,5 +24,9 @@ struct SchemaFaults {
 /// becomes null. What the schema does not describe (extras, unknown extensions) stays. A valid
 /// document stays as it is.
 SchemaFaults enforce_schema(Json& document);
+
+/// An entry of a top-level list ("accessors") that follows the schema, in place of one that is not
+/// kept. Of meshes and animations it is an empty object, which does not follow it.
+[[nodiscard]] Json empty_entry(std::string_view list);
 
 }  // namespace sunder::gltf

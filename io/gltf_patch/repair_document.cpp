@@ -181,7 +181,7 @@ void DocumentRepair::empty_unsound_accessors() {
     if (accessor && (accessor->is_integer() || accessors.is_finite(*accessor)))
       accessors.correct_bounds(static_cast<std::uint32_t>(i), false);
     else
-      draft.json()["accessors"][i] = {{"componentType", 5126}, {"count", 1}, {"type", "SCALAR"}};
+      draft.json()["accessors"][i] = empty_entry("accessors");
   }
 }
 

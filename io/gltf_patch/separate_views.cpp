@@ -1,45 +1,14 @@
 #include "io/gltf_patch/separate_views.h"
 
 #include <map>
-#include <span>
-#include <string>
 #include <utility>
 #include <vector>
 
+#include "io/gltf_patch/accessor_layout.h"
+#include "io/gltf_patch/references.h"
+
 namespace sunder::gltf {
 namespace {
-
-enum class Use { vertices, indices, binds, key_times, key_values, sparse, image };
-
-/// The entries of a list of an object; none if it has no such list.
-std::span<Json> list_in(Json& object, const char* name) {
-  const auto found = object.find(name);
-  if (found == object.end() || !found->is_array()) return {};
-  return found->get_ref<Json::array_t&>();
-}
-
-template <class Visit>
-void visit_primitive(Json& primitive, const Visit& visit) {
-  if (!primitive.is_object()) return;
-  for (auto& item : primitive["attributes"].items()) visit(item.value(), Use::vertices);
-  if (primitive.contains("indices")) visit(primitive["indices"], Use::indices);
-  for (Json& target : list_in(primitive, "targets"))
-    for (auto& item : target.items()) visit(item.value(), Use::vertices);
-}
-
-/// Calls visit(reference, use) for every reference to an accessor.
-template <class Visit>
-void visit_accessors(Json& document, const Visit& visit) {
-  for (Json& mesh : list_in(document, "meshes"))
-    for (Json& primitive : list_in(mesh, "primitives")) visit_primitive(primitive, visit);
-  for (Json& skin : list_in(document, "skins"))
-    if (skin.contains("inverseBindMatrices")) visit(skin["inverseBindMatrices"], Use::binds);
-  for (Json& animation : list_in(document, "animations"))
-    for (Json& sampler : list_in(animation, "samplers")) {
-      visit(sampler["input"], Use::key_times);
-      visit(sampler["output"], Use::key_values);
-    }
-}
 
 /// Keys and sparse parts may share a view.
 Use kind_of_view(Use use) {
@@ -70,15 +39,6 @@ class Copies {
   std::map<std::pair<std::size_t, Key>, std::size_t> copies_;
 };
 
-std::size_t element_bytes(const Json& accessor) {
-  static const std::map<std::string, std::size_t> kComponents = {
-      {"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT2", 4}, {"MAT3", 9}, {"MAT4", 16}};
-  const auto type = accessor["componentType"].get<int>();
-  return kComponents.at(accessor["type"].get<std::string>()) * (type <= 5121   ? 1u
-                                                                : type <= 5123 ? 2u
-                                                                               : 4u);
-}
-
 class Separation {
  public:
   explicit Separation(Json& document) : document_(document) {}
@@ -105,11 +65,9 @@ class Separation {
   void visit_views(const Visit& visit) {
     Json& accessors = document_["accessors"];
     for (const auto& [index, use] : use_of_accessor_) {
-      Json& accessor = accessors[index];
-      if (accessor.contains("bufferView")) visit(accessor["bufferView"], use, index);
-      if (!accessor.contains("sparse")) continue;
-      for (const char* const part : {"indices", "values"})
-        visit(accessor["sparse"][part]["bufferView"], Use::sparse, index);
+      visit_views_of(accessors[index], [&, index = index, use = use](Json& view, bool is_sparse) {
+        visit(view, is_sparse ? Use::sparse : use, index);
+      });
     }
     if (!document_.contains("images")) return;
     for (Json& image : document_["images"])

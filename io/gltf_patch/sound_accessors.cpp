@@ -5,18 +5,10 @@
 #include <utility>
 
 #include "io/gltf/refusal.h"
+#include "io/gltf_patch/accessor_layout.h"
 
 namespace sunder::gltf {
 namespace {
-
-std::uint64_t whole_or(const Json& object, const char* name, std::uint64_t otherwise) {
-  const auto found = object.find(name);
-  return found == object.end() ? otherwise : found->get<std::uint64_t>();
-}
-
-std::uint64_t component_bytes(std::uint64_t type) {
-  return type <= 5121 ? 1 : type <= 5123 ? 2 : 4;
-}
 
 /// A limit must not look like a fault of the accessor, which would be repaired without a word.
 void check_limit(const Refusal& refusal, const Accessor& accessor) {
@@ -80,7 +72,7 @@ std::optional<Accessor> SoundAccessors::open_new(const Json& index) {
 }
 
 bool SoundAccessors::is_aligned(const Json& accessor) const {
-  const std::uint64_t size = component_bytes(accessor["componentType"].get<std::uint64_t>());
+  const std::uint64_t size = component_bytes(accessor);
   const auto view_at = accessor.find("bufferView");
   if (view_at == accessor.end()) return !accessor.contains("byteOffset");
   const Json& view = document_.json["bufferViews"][view_at->get<std::size_t>()];
@@ -100,8 +92,8 @@ bool SoundAccessors::is_sparse_sound(const Json& accessor, const Accessor& opene
            (whole_or(view, "byteOffset", 0) + offset) % size == 0;
   };
   const Json& indices = (*sparse)["indices"];
-  if (!fits(indices, component_bytes(indices["componentType"].get<std::uint64_t>())) ||
-      !fits((*sparse)["values"], component_bytes(accessor["componentType"].get<std::uint64_t>())))
+  if (!fits(indices, component_bytes(indices)) ||
+      !fits((*sparse)["values"], component_bytes(accessor)))
     return false;
   std::uint64_t next = 0;
   for (std::uint32_t i = 0; i < opened.sparse_count; ++i) {

@@ -7,12 +7,12 @@
 #include <utility>
 #include <vector>
 
+#include "io/gltf/unit_tolerance.h"
+
 namespace sunder::gltf {
 namespace {
 
-// Tolerances of the Khronos validator.
-constexpr double kNormalTolerance = 0.00674;
-constexpr double kSumTolerance = 2e-7;
+constexpr double kSumTolerance = 2e-7;  // that of the Khronos validator, per influence
 
 /// "TEXCOORD" and 1 of "TEXCOORD_1"; without a number: kNone.
 std::pair<std::string, std::uint32_t> split_semantic(const std::string& semantic) {
@@ -55,7 +55,7 @@ bool are_unit(const std::vector<float>& values, std::size_t components) {
     double squared = 0;
     for (std::size_t c = 0; c < 3; ++c)
       squared += static_cast<double>(values[i + c]) * static_cast<double>(values[i + c]);
-    if (std::abs(std::sqrt(squared) - 1.0) > kNormalTolerance) return false;
+    if (std::abs(std::sqrt(squared) - 1.0) > kUnitTolerance) return false;
     if (components == 4 && std::abs(values[i + 3]) != 1.0f) return false;
   }
   return true;

@@ -10,6 +10,7 @@
 #include "io/gltf/glb.h"
 #include "io/gltf/refusal.h"
 #include "io/gltf_patch/clip_patch.h"
+#include "io/gltf_patch/leave_out_unused.h"
 #include "io/gltf_patch/repair_document.h"
 #include "io/gltf_write/mesh_writer.h"
 #include "io/gltf_write/rig_writer.h"
@@ -371,15 +372,16 @@ std::vector<std::byte> glb_of(const Character& character, const LoadedCharacter&
   check_same_character(character, loaded);
   const SourceDocument& source = *loaded.source;
   GlbDraft draft(source);
-  const Json before = source.is_glb ? draft.json : Json();
+  const Json before = draft.json;
   DocumentRepair repair(draft, character, source);
   const std::vector<bool> changed = changed_meshes(character, loaded);
   const std::vector<std::uint32_t> meshes = meshes_to_write(changed, repair.prepare(changed));
   Patch(draft, character, loaded, options).apply(meshes);
   repair.finish();
-  if (source.is_glb && meshes.empty() && draft.json == before && is_container_sound(source.content))
-    return source.content;
+  const bool is_unchanged = meshes.empty() && draft.json == before;
+  if (is_unchanged && source.is_glb && is_container_sound(source.content)) return source.content;
   draft.embed_images();
+  if (!is_unchanged) leave_out_unused(draft, source);
   return draft.finish();
 }
 

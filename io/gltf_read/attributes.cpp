@@ -5,13 +5,10 @@
 
 #include "core/internal/all_finite.h"
 #include "io/gltf/refusal.h"
+#include "io/gltf/unit_tolerance.h"
 
 namespace sunder::gltf {
 namespace {
-
-// What the Khronos validator accepts. In the bytes of KHR_mesh_quantization nearly all unit vectors
-// are nearer to unit length; the worst are off by 0.0068.
-constexpr float kUnitTolerance = 0.00674f;
 
 std::string set_name(const char* prefix, std::size_t index) {
   return prefix + std::to_string(index);
@@ -30,10 +27,10 @@ template <class Direction>
 bool make_unit(Direction&& direction, const Vec3f& if_zero) {
   // Nearly all directions are of unit length; most are seen to be without a square root.
   const double squared_length = direction.template cast<double>().squaredNorm();
-  constexpr double kSurely = 1.9 * static_cast<double>(kUnitTolerance);
+  constexpr double kSurely = 1.9 * kUnitTolerance;
   if (std::abs(squared_length - 1.0) <= kSurely) return false;
   const float norm = squared_length > 0 ? static_cast<float>(std::sqrt(squared_length)) : 0.0f;
-  if (std::abs(norm - 1.0f) <= kUnitTolerance) return false;
+  if (std::abs(norm - 1.0f) <= static_cast<float>(kUnitTolerance)) return false;
   if (norm > 0.0f)
     direction = direction.template cast<double>().normalized().template cast<float>();
   else

@@ -132,6 +132,39 @@ std::uint32_t MeshWriter::add_labels(const CustomAttribute& attribute) {
                        {"type", kTypes[components]}});
 }
 
+/// Tear sides are plain floats, because tools that merge equal vertices compare these most
+/// reliably. Most are zero, so the others alone take less space.
+std::uint32_t MeshWriter::add_sides(const std::vector<float>& sides) {
+  std::vector<std::uint32_t> indices;
+  std::vector<float> values;
+  for (std::uint32_t v = 0; v < sides.size(); ++v)
+    if (sides[v] != 0.0f) {
+      indices.push_back(v);
+      values.push_back(sides[v]);
+    }
+  const bool is_short = sides.size() <= std::size_t{std::numeric_limits<std::uint16_t>::max()} + 1;
+  const std::size_t sparse_bytes =
+      indices.size() * (sizeof(float) + (is_short ? sizeof(std::uint16_t) : sizeof(std::uint32_t)));
+  constexpr std::size_t kDescription = 256;  // what two views and the sparse part take in the JSON
+  if (indices.empty() || sparse_bytes + kDescription >= sides.size() * sizeof(float))
+    return add_floats(sides, 1);
+  const std::vector<std::uint16_t> narrow(indices.begin(), indices.end());
+  const std::uint32_t index_view = draft_.add_view(
+      is_short ? std::as_bytes(std::span(narrow)) : std::as_bytes(std::span(indices)),
+      GlbDraft::ViewTarget::none);
+  const std::uint32_t value_view =
+      draft_.add_view(std::as_bytes(std::span(values)), GlbDraft::ViewTarget::none);
+  const auto index_type =
+      static_cast<std::uint32_t>(is_short ? ComponentType::u16 : ComponentType::u32);
+  return add_accessor({{"componentType", static_cast<std::uint32_t>(ComponentType::f32)},
+                       {"count", sides.size()},
+                       {"type", "SCALAR"},
+                       {"sparse",
+                        {{"count", indices.size()},
+                         {"indices", {{"bufferView", index_view}, {"componentType", index_type}}},
+                         {"values", {{"bufferView", value_view}}}}}});
+}
+
 bool MeshWriter::has_triangles(const Mesh& mesh) {
   return !std::all_of(mesh.triangles.begin(), mesh.triangles.end(), is_retired);
 }
@@ -155,11 +188,12 @@ MeshWriter::Vertices MeshWriter::add_vertices(const Mesh& mesh,
         has_alpha ? add_vectors(mesh.color_sets[i]) : add_vectors(rgb);
   }
   for (const CustomAttribute& attribute : mesh.custom_attributes) {
-    // Tear sides are written as plain floats, because tools that merge equal vertices compare these
-    // most reliably.
-    const bool as_floats = attribute.interpolates || attribute.name == kTearSideAttribute;
-    attributes[attribute.name] =
-        as_floats ? add_floats(attribute.values, attribute.components) : add_labels(attribute);
+    if (attribute.name == kTearSideAttribute && attribute.components == 1)
+      attributes[attribute.name] = add_sides(attribute.values);
+    else
+      attributes[attribute.name] = attribute.interpolates
+                                       ? add_floats(attribute.values, attribute.components)
+                                       : add_labels(attribute);
   }
   if (const auto sides = attributes.find(kTearSideAttribute); sides != attributes.end()) {
     const Json accessor = *sides;  // The insertion moves it.

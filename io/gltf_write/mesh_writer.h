@@ -59,6 +59,7 @@ class MeshWriter {
   std::uint32_t add_integers(const std::vector<std::uint32_t>& values, std::uint32_t components,
                              GlbDraft::ViewTarget target);
   std::uint32_t add_labels(const CustomAttribute& attribute);
+  std::uint32_t add_sides(const std::vector<float>& sides);
   std::uint32_t add_accessor(Json accessor);
   void add_influences(const SkinWeights& weights, InfluenceForm form, Json& attributes);
   template <class Weight>

@@ -11,6 +11,7 @@
 #include <numbers>
 #include <set>
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -408,6 +409,50 @@ TEST(Aim, refuses_what_it_cannot_hit) {
   slash.pose = ClipPose{std::string("Swim"), 0.0};
   EXPECT_EQ(failure_of(model, slash).code(), StatusCode::not_found);
   EXPECT_EQ(test::difference(test::state_of(model), before), "");
+}
+
+/// A skirt from y = 0 to 3 whose upper third the hips move, and each half below a thigh. All three
+/// bones hang on a root that moves nothing.
+Character make_skirt() {
+  Character character = test::make_tube(24, 16, 3);
+  const std::array names = {"Hips", "Thigh.L", "Thigh.R"};
+  const std::array places = {Vec3f(0, 3, 0), Vec3f(0.25f, 2, 0), Vec3f(-0.25f, 2, 0)};
+  character.skeleton.bones.assign(1, Bone{});
+  character.skeleton.bones[0].name = "Root";
+  Skin& skin = character.skins[0];
+  skin.bones.clear();
+  skin.bone_from_bind.clear();
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    Bone bone;
+    bone.name = names[i];
+    bone.parent = 0;
+    bone.rest.translation = places[i];
+    character.skeleton.bones.push_back(bone);
+    skin.bones.push_back(i + 1);
+    Affine3f bone_from_bind = Affine3f::Identity();
+    bone_from_bind.translation() = -places[i];
+    skin.bone_from_bind.push_back(bone_from_bind);
+  }
+  character.clips.clear();
+  Mesh& mesh = character.meshes[0];
+  mesh.weights = SkinWeights();
+  for (const Vec3f& position : mesh.positions) {
+    const float hips = std::clamp(position.y() - 1.5f, 0.0f, 1.0f),
+                left = std::clamp(0.5f + 2 * position.x(), 0.0f, 1.0f);
+    std::vector<Influence> influences;
+    for (const Influence& one : {Influence{0, hips}, Influence{1, (1 - hips) * left},
+                                 Influence{2, (1 - hips) * (1 - left)}})
+      if (one.weight > 0) influences.push_back(one);
+    mesh.weights.append(influences);
+  }
+  return character;
+}
+
+TEST(Sever, a_skirt_round_both_thighs_is_of_neither) {
+  const TornModel model = make_model(make_skirt());
+  for (const char* const thigh : {"Thigh.L", "Thigh.R"})
+    EXPECT_THAT(std::string(failure_of(model, sever_at(thigh, 0.5)).text()),
+                HasSubstr("not of the limb alone"));
 }
 
 TEST(Aim, keeps_the_pose_and_options_of_the_operation) {

@@ -75,6 +75,7 @@ const std::map<std::string, std::set<std::string>> kThirdParties = {
 /// Third parties that a single room may include.
 const std::map<std::string, std::set<std::string>> kThirdPartyOfRoom = {
     {"binding", {"unsupported"}},  // the tree of boxes in Eigen's package
+    {"io/collada", {"tinyxml2.h"}},
     {"io/compression", {"draco", "meshoptimizer.h"}},
     {"io/fbx", {"zlib.h"}},
     {"io/gltf_decoders", {"simdjson.h"}},

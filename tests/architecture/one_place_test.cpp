@@ -62,9 +62,9 @@ TEST(OnePlace, files_are_written_by_one_function) {
   EXPECT_EQ(first_match_below(root, "tools", "none", kWriting), "");
   // The helper process reads what the system says of its memory; it cannot write files.
   for (const char* const folder :
-       {"io/assimp", "io/compression", "io/contained_import", "io/gltf", "io/gltf_patch",
-        "io/gltf_read", "io/gltf_still", "io/gltf_write", "io/import_checks", "io/import_messages",
-        "io/operation_log", "io/trajectory", "io/urdf"})
+       {"io/assimp", "io/collada", "io/compression", "io/contained_import", "io/gltf",
+        "io/gltf_patch", "io/gltf_read", "io/gltf_still", "io/gltf_write", "io/import_checks",
+        "io/import_messages", "io/operation_log", "io/trajectory", "io/urdf"})
     EXPECT_EQ(first_match_below(root, folder, "none", kWriting), "");
   EXPECT_NE(first_match_below(root, "io/files", "none", kWriting), "");
   for (const char* const module : {"core", "skinning", "tear", "particles", "scene", "samples"})

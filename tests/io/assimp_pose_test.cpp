@@ -186,6 +186,106 @@ TEST(AssimpPoses, ColladaArrivesInMetresWithYUp) {
   EXPECT_LT((corners[2] - Vec3d(0, 1, 0)).norm(), 1e-6);  // The file's z, 100 centimetres.
 }
 
+/// One triangle, its corners on the joints "low", "middle" and "high", shown by nodes with
+/// skeletons of their own. A skeleton is three joints with the same sids, moved by (x, 0, 0).
+std::string skin_on_skeletons(const std::vector<int>& places, bool has_ids, bool has_skeletons) {
+  const auto matrix = [](double x, double y) {
+    return "<matrix>1 0 0 " + std::to_string(x) + " 0 1 0 " + std::to_string(y) +
+           " 0 0 1 0 0 0 0 1</matrix>";
+  };
+  const std::string sids[] = {"low", "middle", "high"};
+  std::string nodes, binds;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const auto joint = [&](std::size_t k, double x, double y) {
+      const std::string id = "s" + std::to_string(i) + "_" + sids[k];
+      return "<node id='" + id + "' sid='" + sids[k] + "' name='" + sids[k] + "' type='JOINT'>" +
+             matrix(x, y);
+    };
+    nodes += joint(0, places[i], 0) + joint(1, 0, 1) + joint(2, 0, 1) + "</node></node></node>";
+  }
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const std::string skeleton =
+        has_skeletons ? "<skeleton>#s" + std::to_string(i) + "_low</skeleton>" : "";
+    nodes += "<node id='shown" + std::to_string(i) + "'><instance_controller url='#ctl'>" +
+             skeleton + "</instance_controller></node>";
+  }
+  for (int k = 0; k < 3; ++k) binds += "1 0 0 0 0 1 0 " + std::to_string(-k) + " 0 0 1 0 0 0 0 1 ";
+  const std::string joints = has_ids ? "<IDREF_array id='jn-a' count='3'>s1_low s1_middle "
+                                       "s1_high</IDREF_array>"
+                                     : "<Name_array id='jn-a' count='3'>low middle "
+                                       "high</Name_array>";
+  return R"(<?xml version='1.0'?>
+<COLLADA xmlns='http://www.collada.org/2005/11/COLLADASchema' version='1.4.1'>
+<asset><up_axis>Y_UP</up_axis></asset>
+<library_geometries><geometry id='geo'><mesh>
+<source id='pos'><float_array id='pos-a' count='9'>0 0 0 1 1 0 0 2 0</float_array><technique_common><accessor source='#pos-a' count='3' stride='3'><param name='X' type='float'/><param name='Y' type='float'/><param name='Z' type='float'/></accessor></technique_common></source>
+<vertices id='vert'><input semantic='POSITION' source='#pos'/></vertices>
+<triangles count='1'><input semantic='VERTEX' source='#vert' offset='0'/><p>0 1 2</p></triangles>
+</mesh></geometry></library_geometries>
+<library_controllers><controller id='ctl'><skin source='#geo'><bind_shape_matrix>1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</bind_shape_matrix>
+<source id='jn'>)" +
+         joints +
+         R"(<technique_common><accessor source='#jn-a' count='3' stride='1'><param name='JOINT' type='name'/></accessor></technique_common></source>
+<source id='ib'><float_array id='ib-a' count='48'>)" +
+         binds +
+         R"(</float_array><technique_common><accessor source='#ib-a' count='3' stride='16'><param name='TRANSFORM' type='float4x4'/></accessor></technique_common></source>
+<source id='w'><float_array id='w-a' count='1'>1</float_array><technique_common><accessor source='#w-a' count='1' stride='1'><param name='WEIGHT' type='float'/></accessor></technique_common></source>
+<joints><input semantic='JOINT' source='#jn'/><input semantic='INV_BIND_MATRIX' source='#ib'/></joints>
+<vertex_weights count='3'><input semantic='JOINT' source='#jn' offset='0'/><input semantic='WEIGHT' source='#w' offset='1'/><vcount>1 1 1</vcount><v>0 0 1 0 2 0</v></vertex_weights>
+</skin></controller></library_controllers>
+<library_visual_scenes><visual_scene id='scene'>)" +
+         nodes +
+         R"(</visual_scene></library_visual_scenes>
+<scene><instance_visual_scene url='#scene'/></scene>
+</COLLADA>
+)";
+}
+
+TEST(AssimpPoses, a_skin_of_a_collada_file_is_on_the_skeleton_that_its_instance_names) {
+  const test::TemporaryFolder folder;
+  const auto corners_of = [&](const std::string& text) {
+    const auto loaded = load_character(folder.write("skins.dae", std::string_view(text)));
+    EXPECT_TRUE(loaded) << loaded.error().text();
+    return loaded ? our_corners(*loaded->character, 0, kRest) : Corners();
+  };
+  const Corners shown = corners_of(skin_on_skeletons({0, 10, -4}, false, true));
+  ASSERT_EQ(shown.size(), 9u);
+  const std::vector<double> places = {0, 10, -4};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_LT((shown[3 * i + k] - Vec3d(places[i] + (k == 1 ? 1 : 0), double(k), 0)).norm(), 1e-6)
+          << "instance " << i << ", corner " << k;
+  // Ids are those of one skeleton, wherever the skeletons are said to be.
+  const Corners by_id = corners_of(skin_on_skeletons({0, 10}, true, true));
+  ASSERT_GE(by_id.size(), 3u);
+  for (const Vec3d& corner : by_id) EXPECT_GE(corner.x(), 10 - 1e-6);
+  // Without skeletons, the first sids of the scene.
+  const Corners anywhere = corners_of(skin_on_skeletons({-4, 10}, false, false));
+  ASSERT_GE(anywhere.size(), 3u);
+  for (const Vec3d& corner : anywhere) EXPECT_LE(corner.x(), -3 + 1e-6);
+}
+
+/// The conformance test of the sids: its first chain of joints has the right ids and no sids.
+TEST(AssimpPoses, joints_of_a_collada_file_are_found_by_sids_before_ids) {
+  SUNDER_SKIP_WITHOUT_SHARED_MODELS();
+  const fs::path file = test::shared_models().parent_path() / "strangers/cts_search_sid_first.dae";
+  if (!fs::exists(file)) GTEST_SKIP() << "needs the folder strangers next to the shared models";
+  const auto loaded = load_character(file);
+  ASSERT_TRUE(loaded) << loaded.error().text();
+  const Character& character = *loaded->character;
+  ASSERT_EQ(character.meshes.size(), 1u);
+  const Skin& skin = character.skins[character.meshes[0].skin];
+  // The chain with sids begins at the second node of that name.
+  for (const std::uint32_t bone : skin.bones) {
+    std::uint32_t root = bone;
+    while (character.skeleton.bones[root].parent != kNone &&
+           character.skeleton.bones[root].name != "joint1_2")
+      root = character.skeleton.bones[root].parent;
+    EXPECT_EQ(character.skeleton.bones[root].name, "joint1_2")
+        << character.skeleton.bones[bone].name;
+  }
+}
+
 /// Our own models and, if they are there, the shared ones.
 TEST(AssimpPoses, RiggedModels) {
   const fs::path own = test::own_data() / "rigged";

@@ -1,4 +1,4 @@
-// Prints {"errors": n, "warnings": n, "messages": [...]} of GLBs, by the Khronos glTF validator; one line per file.
+// Prints {"errors": n, "warnings": n, "unused": n, "messages": [...]} of GLBs, by the Khronos glTF validator; one line per file.
 // Usage: node validate.mjs <file.glb> ... or, for many, node validate.mjs --folder <folder> (in the order of names)
 import { readFileSync, readdirSync } from 'node:fs';
 import { dirname, join, resolve } from 'node:path';
@@ -24,6 +24,7 @@ for (const file of files) {
   console.log(JSON.stringify({
     errors: report.issues.numErrors,
     warnings: report.issues.numWarnings,
+    unused: report.issues.messages.filter(({ code }) => code === 'UNUSED_OBJECT').length,
     messages: errors.slice(0, 5).map(({ code, message, pointer }) => `${code} ${pointer ?? ''}: ${message}`),
   }));
 }

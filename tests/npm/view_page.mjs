@@ -4,6 +4,7 @@
 //        node view_page.mjs torn <page.html>             a page with a torn model and operations
 //        node view_page.mjs given <page.html>            the poses of all operations that the page was given
 //        node view_page.mjs picture <page.html> <p.png>  draws the demo's cactus with every tool
+//        node view_page.mjs colours <page.html> <places>  the pixels at places of the model: x,y,z/x,y,z ...
 //        node view_page.mjs broken <page.html>           a page whose data cannot be read
 import { readdirSync, readFileSync, renameSync } from 'node:fs';
 import { join } from 'node:path';
@@ -303,6 +304,23 @@ async function testGiven() {
   facts.said = await page.$eval('#said', (said) => said.textContent);
 }
 
+async function testColours() {
+  const page = await openPage(browser, file, facts);
+  const places = folder.split('/').map((place) => place.split(',').map(Number));
+  facts.colours = await page.evaluate((all) => {
+    const { stage } = sunder;
+    stage.draw();
+    const gl = stage.renderer.getContext();
+    const scale = gl.drawingBufferWidth / stage.canvas.clientWidth;
+    return all.map((place) => {
+      const [x, y] = stage.placeOf(place, 0);
+      const pixel = new Uint8Array(4);
+      gl.readPixels(x * scale, gl.drawingBufferHeight - y * scale, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
+      return [...pixel.subarray(0, 3)];
+    });
+  }, places);
+}
+
 async function testBroken() {
   const page = await openPage(browser, file, facts, { ready: '#error:not([hidden])' });
   facts.error = await page.$eval('#error', (error) => error.textContent);
@@ -327,6 +345,6 @@ async function drawPicture() {
   await page.screenshot({ path: folder });
 }
 
-await { place: testPlacing, picture: drawPicture, probe: testProbe, torn: testTorn, given: testGiven, broken: testBroken }[mode]();
+await { place: testPlacing, picture: drawPicture, probe: testProbe, torn: testTorn, given: testGiven, colours: testColours, broken: testBroken }[mode]();
 await browser.close();
 console.log(JSON.stringify(facts));

@@ -1,6 +1,7 @@
 // `sunder info`, help, and command lines that are wrong.
 
 #include "tools/command_fixture.h"
+#include "tools/textured_squares.h"
 
 namespace sunder::command_test {
 namespace {
@@ -89,6 +90,20 @@ TEST_F(InfoCommand, info_speaks_to_people_too) {
   EXPECT_THAT(result.out, HasSubstr("'Cactus'"));
   EXPECT_THAT(result.out, HasSubstr("clip 0"));
   EXPECT_THAT(result.err, IsEmpty());
+}
+
+TEST_F(InfoCommand, materials_have_the_indices_that_operations_take) {
+  test::GltfBuilder builder;
+  builder.json["scene"] = 0;
+  builder.json["materials"].push_back({{"name", "unused"}});
+  add_square(builder, 0, 0, {{"name", "second"}});
+  add_square(builder, 1, 0, {{"name", "third"}});
+  std::swap(builder.json["scenes"][0]["nodes"][0], builder.json["scenes"][0]["nodes"][1]);
+  const std::vector<std::byte> glb = builder.glb();
+  write("materials.glb", {reinterpret_cast<const char*>(glb.data()), glb.size()});
+  const CommandResult result = run_sunder({"info", path("materials.glb")});
+  EXPECT_THAT(result.out, HasSubstr("material 1 'second': 2 triangles"));
+  EXPECT_THAT(result.out, HasSubstr("material 2 'third': 2 triangles"));
 }
 
 TEST_F(InfoCommand, an_unreadable_model_exits_with_3) {

@@ -1,8 +1,8 @@
 // Materials in pictures: a row of squares, each with a material of another kind.
 
-#include "support/models/gltf_builder.h"
 #include "tools/command_fixture.h"
 #include "tools/picture_pixels.h"
+#include "tools/textured_squares.h"
 
 namespace sunder::command_test {
 namespace {
@@ -10,56 +10,13 @@ namespace {
 using test::GltfBuilder;
 using test::Pixels;
 using testing::StartsWith;
-using OrderedJson = nlohmann::ordered_json;
 
-using Texel = std::array<std::uint8_t, 4>;
 constexpr Texel kGreen = {0, 200, 0, 255}, kClear = {0, 0, 200, 0};
 
 class PictureMaterials : public CommandSuite {};
 
-/// Adds a unit square with its lower left corner at (x, 0, z).
-void add_square(GltfBuilder& builder, float x, float z, const OrderedJson& material,
-                const std::vector<float>& color = {}) {
-  OrderedJson attributes;
-  attributes["POSITION"] = builder.add<float>({x, 0, z, x + 1, 0, z, x + 1, 1, z, x, 1, z}, "VEC3");
-  attributes["NORMAL"] = builder.add<float>({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");
-  attributes["TEXCOORD_0"] = builder.add<float>({0, 1, 1, 1, 1, 0, 0, 0}, "VEC2");
-  if (!color.empty()) {
-    std::vector<float> colors;
-    for (int i = 0; i < 4; ++i) colors.insert(colors.end(), color.begin(), color.end());
-    attributes["COLOR_0"] = builder.add<float>(colors, "VEC4");
-  }
-  const std::size_t indices = builder.add<std::uint16_t>({0, 1, 2, 0, 2, 3}, "SCALAR");
-  builder.json["materials"].push_back(material);
-  builder.json["meshes"].push_back(
-      {{"primitives", OrderedJson::array({{{"attributes", attributes},
-                                           {"indices", indices},
-                                           {"material", builder.json["materials"].size() - 1}}})}});
-  builder.json["nodes"].push_back({{"mesh", builder.json["meshes"].size() - 1}});
-  builder.json["scenes"][0]["nodes"].push_back(builder.json["nodes"].size() - 1);
-}
-
-/// A texture of 2 x 2 texels. @return its index.
-std::size_t add_texture(GltfBuilder& builder, const std::array<Texel, 4>& texels) {
-  const std::vector<std::byte> png = test::make_png(2, 2, {texels.begin(), texels.end()});
-  std::vector<std::uint8_t> bytes;
-  for (const std::byte byte : png) bytes.push_back(std::to_integer<std::uint8_t>(byte));
-  builder.json["images"].push_back(
-      {{"bufferView", builder.add_view(bytes)}, {"mimeType", "image/png"}});
-  builder.json["textures"].push_back({{"source", builder.json["images"].size() - 1}});
-  return builder.json["textures"].size() - 1;
-}
-
-/// All of one colour.
-std::size_t add_texture(GltfBuilder& builder, const Texel& texel) {
-  return add_texture(builder, {texel, texel, texel, texel});
-}
-
 OrderedJson plain(const std::array<double, 4>& color) {
   return {{"pbrMetallicRoughness", {{"baseColorFactor", color}, {"metallicFactor", 1.0}}}};
-}
-OrderedJson textured(std::size_t texture) {
-  return {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", texture}}}}}};
 }
 
 TEST_F(PictureMaterials, colors_textures_vertex_colors_and_alpha_are_drawn) {

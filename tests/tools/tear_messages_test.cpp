@@ -330,6 +330,16 @@ TEST_F(TearMessages, a_picture_that_failed_does_not_count_as_written) {
   EXPECT_THAT(result.err, HasSubstr("the file is written as PNG, but its name does not end in"));
 }
 
+TEST_F(TearMessages, an_output_may_be_named_vrm_which_is_glb) {
+  const std::string log = write("one_vrm.json", kOneTear);
+  const CommandResult as_vrm = run_sunder({"tear", model(), "--ops", log, "-o", path("m.vrm")}),
+                      as_glb = run_sunder({"tear", model(), "--ops", log, "-o", path("same.glb")});
+  EXPECT_EQ(as_vrm.exit_code, as_glb.exit_code) << as_vrm.err;
+  EXPECT_THAT(as_vrm.err, Not(HasSubstr("does not end in")));
+  EXPECT_EQ(bytes("m.vrm"), bytes("same.glb"));
+  EXPECT_EQ(run_sunder({"info", path("m.vrm")}).exit_code, 0);
+}
+
 TEST_F(TearMessages, more_influences_than_the_source_has_are_warned_of) {
   const std::string log = write("one.json", kOneTear);
   EXPECT_THAT(tear(log, {"--influences", "8"}).err,

@@ -15,11 +15,14 @@
 #include <map>
 #include <set>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "support/machine/node_program.h"
 #include "support/models/rigs.h"
 #include "support/models/shared_models.h"
 #include "tools/command_fixture.h"
+#include "tools/textured_squares.h"
 
 namespace sunder::command_test {
 namespace {
@@ -421,6 +424,47 @@ TEST_F(ViewPage, goes_to_every_kind_of_pose_of_a_log) {
     EXPECT_LT(worst, 1e-6 * posed.diagonal) << "pose " << i;
   }
   EXPECT_THAT(facts["said"].get<std::string>(), HasSubstr("no clip 'No such'"));
+}
+
+/// The channel of a pixel that is clearly the largest: 0, 1, 2; otherwise -1, as of grey.
+int hue_of(const json& pixel) {
+  for (std::size_t c = 0; c < 3; ++c) {
+    const int other = std::max(pixel[(c + 1) % 3].get<int>(), pixel[(c + 2) % 3].get<int>());
+    if (pixel[c].get<int>() > 2 * other) return static_cast<int>(c);
+  }
+  return -1;
+}
+
+TEST_F(ViewPage, a_texture_transform_moves_and_turns_the_image) {
+  constexpr Texel kRed = {200, 0, 0, 255}, kGreen = {0, 200, 0, 255}, kBlue = {0, 0, 200, 255},
+                  kGrey = {90, 90, 90, 255};
+  test::GltfBuilder builder;
+  builder.json["scene"] = 0;
+  builder.json["extensionsUsed"] = OrderedJson::array({"KHR_texture_transform"});
+  // From the upper left: red, green, blue, grey.
+  OrderedJson material = textured(add_texture(builder, {kRed, kGreen, kBlue, kGrey}));
+  add_square(builder, 0, 0, material);
+  OrderedJson& reference = material["pbrMetallicRoughness"]["baseColorTexture"];
+  reference["extensions"]["KHR_texture_transform"] = {{"offset", {0.75, 0.25}}, {"scale", {0, 0}}};
+  add_square(builder, 1, 0, material);
+  // A quarter turn: (u, v) -> (v, -u), which repeats.
+  reference["extensions"]["KHR_texture_transform"] = {{"rotation", 1.5707963267948966}};
+  add_square(builder, 2, 0, material);
+  const std::vector<std::byte> glb = builder.glb();
+  write("turned.glb", {reinterpret_cast<const char*>(glb.data()), glb.size()});
+  ASSERT_EQ(run_sunder({"view", path("turned.glb"), "-o", path("turned.html")}).exit_code, 0);
+  // In each square: the middles of the texels from the upper left, if nothing is turned.
+  std::string places;
+  for (const double square : {0.0, 1.0, 2.0})
+    for (const double v : {0.25, 0.75})
+      for (const double u : {0.25, 0.75})
+        places += std::to_string(square + u) + "," + std::to_string(1 - v) + ",0/";
+  places.pop_back();
+  const json facts = used("colours", path("turned.html"), places);
+  std::vector<int> hues;
+  for (const json& pixel : facts["colours"]) hues.push_back(hue_of(pixel));
+  // Turned: (0.25, 0.25) -> (0.25, 0.75), (0.75, 0.25) -> (0.25, 0.25), (0.25, 0.75) -> (0.75, 0.75).
+  EXPECT_EQ(hues, (std::vector<int>{0, 1, 2, -1, 1, 1, 1, 1, 2, 0, -1, 1}));
 }
 
 TEST_F(ViewPage, says_that_its_data_cannot_be_read) {

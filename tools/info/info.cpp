@@ -154,10 +154,11 @@ void add_meshes(const Json& meshes, Lines& lines) {
 }
 
 void add_materials_and_clips(const Json& info, Lines& lines) {
-  for (std::size_t i = 0; i < info["materials"].size(); ++i)
-    lines.add(printed("material %zu '%s': %zu triangles", i,
-                      text(info["materials"][i]["name"]).c_str(),
-                      count(info["materials"][i]["triangles"])));
+  // The indices are those that operations take: `cap_material`, `wall_material`.
+  for (const Json& material : info["materials"])
+    lines.add(printed("material %s '%s': %zu triangles",
+                      material["index"].is_null() ? "-" : material["index"].dump().c_str(),
+                      text(material["name"]).c_str(), count(material["triangles"])));
   for (std::size_t i = 0; i < info["clips"].size(); ++i)
     lines.add(printed("clip %zu     '%s': %.4g s, %zu channels", i,
                       text(info["clips"][i]["name"]).c_str(), number(info["clips"][i]["duration"]),

@@ -33,7 +33,7 @@ std::string impossible_output(const std::vector<NamedFile>& outputs) {
 std::string other_ending(const NamedFile& output, const std::string& ending) {
   const std::string found = converted(output.file.extension().string(),
                                       [](unsigned char letter) { return std::tolower(letter); });
-  if (found == "." + ending) return {};
+  if (found == "." + ending || (ending == "glb" && found == ".vrm")) return {};
   const std::string format =
       converted(ending, [](unsigned char letter) { return std::toupper(letter); });
   return output.option + " " + output.file.string() + ": the file is written as " + format +

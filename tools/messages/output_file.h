@@ -13,7 +13,7 @@ namespace sunder::tools {
 
 /// "--output a.obj: the file is written as GLB, but its name does not end in .glb"; empty if it
 /// does, in small or capital letters.
-/// @param ending  "glb".
+/// @param ending  "glb", which VRM files are too.
 [[nodiscard]] std::string other_ending(const NamedFile& output, const std::string& ending);
 
 }  // namespace sunder::tools

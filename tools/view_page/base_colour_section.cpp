@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 namespace sunder::tools {
 namespace {
@@ -18,8 +19,13 @@ const char* wrap_name(BaseColour::Wrap wrap) {
 
 Json material_json(const BaseColour& colour, const BaseColours& all, PageImages& images) {
   const Vec4f& factor = colour.factor;
+  const auto& transform = colour.image_from_uv;
+  Json image_from_uv = Json::array();  // row by row
+  for (int row = 0; row < 2; ++row)
+    for (int column = 0; column < 3; ++column) image_from_uv.push_back(transform(row, column));
   return {{"factor", {factor[0], factor[1], factor[2], factor[3]}},
           {"image", colour.image == kNone ? Json() : Json(images.add(all.images[colour.image]))},
+          {"image_from_uv", std::move(image_from_uv)},
           {"wrap", {wrap_name(colour.wrap_u), wrap_name(colour.wrap_v)}},
           {"cutoff", colour.cutoff}};
 }

@@ -38,7 +38,8 @@ std::vector<std::filesystem::path> files_below(const std::filesystem::path& fold
 std::vector<std::filesystem::path> rigged_models(const std::vector<std::string>& extensions) {
   auto files = files_below(own_data() / "rigged", extensions);
   if (const auto shared = shared_models(); !shared.empty())
-    for (const auto& file : files_below(shared / "rigged", extensions)) files.push_back(file);
+    for (const auto& folder : {shared / "rigged", if_present(shared.parent_path() / "strangers")})
+      for (const auto& file : files_below(folder, extensions)) files.push_back(file);
   return files;
 }
 

@@ -20,8 +20,8 @@ std::filesystem::path own_data();
 std::vector<std::filesystem::path> files_below(const std::filesystem::path& folder,
                                                const std::vector<std::string>& extensions);
 
-/// The rigged models with one of these extensions: our own, then the shared ones if they are there.
-/// Never empty for ".glb".
+/// The rigged models with one of these extensions: our own, then the shared ones and those of the
+/// folder "strangers" next to them, if they are there. Never empty for ".glb".
 std::vector<std::filesystem::path> rigged_models(const std::vector<std::string>& extensions);
 
 /// Those in glTF and GLB.

@@ -1,8 +1,8 @@
 // A model as three.js draws it: base colours, separated pieces and lips.
 import {
   BufferAttribute, ClampToEdgeWrapping, DataTexture, DoubleSide, GLSL3, LinearFilter,
-  LinearMipmapLinearFilter, Mesh, MirroredRepeatWrapping, RepeatWrapping, ShaderMaterial, Texture,
-  Vector4,
+  LinearMipmapLinearFilter, Matrix3, Mesh, MirroredRepeatWrapping, RepeatWrapping, ShaderMaterial,
+  Texture, Vector4,
 } from 'three';
 import { NONE } from '../../page_parts/src/decode.js';
 import { poseVertices } from '../../page_parts/src/skin.js';
@@ -19,6 +19,7 @@ const WRAPS = { repeat: RepeatWrapping, clamp: ClampToEdgeWrapping, mirror: Mirr
 const vertexShader = `${SKINNING}
 in vec4 baseColour;
 in float piece;
+uniform mat3 imageFromUv;
 out vec3 viewNormal;
 out vec2 place;
 out vec4 vertexColour;
@@ -30,7 +31,7 @@ void main() {
   vec4 bind = vec4(position, 1.0);
   vec4 seen = modelViewMatrix * vec4(dot(x, bind), dot(y, bind), dot(z, bind), 1.0);
   viewNormal = normalMatrix * vec3(dot(x.xyz, normal), dot(y.xyz, normal), dot(z.xyz, normal));
-  place = uv;
+  place = (imageFromUv * vec3(uv, 1.0)).xy;
   vertexColour = baseColour;
   shownPiece = piece;
   gl_Position = projectionMatrix * seen;
@@ -157,12 +158,14 @@ export class ShownModel {
   makeMaterial(material, bitmaps) {
     const bitmap = bitmaps[material?.image] ?? null;
     const factor = material?.factor ?? [0.6, 0.59, 0.56, 1];
+    const imageFromUv = material?.image_from_uv ?? [1, 0, 0, 0, 1, 0];
     return new ShaderMaterial({
       vertexShader, fragmentShader, glslVersion: GLSL3, side: DoubleSide,
       uniforms: {
         ...this.skinned.uniforms, ...this.shared,
         image: { value: bitmap ? textureOf(bitmap, material.wrap) : blank },
         hasImage: { value: bitmap !== null },
+        imageFromUv: { value: new Matrix3().set(...imageFromUv, 0, 0, 1) },
         factor: { value: new Vector4(...factor) },
         cutoff: { value: material?.cutoff ?? 0 },
       },
