@@ -60,7 +60,8 @@ Index main_root(const std::vector<Bone>& bones, const std::vector<double>& weigh
   return root;
 }
 
-/// See Adoption::with_own_parents().
+/// A bone that keeps its place in the skeleton goes before the one with the strongest bond if its
+/// own is at least so much of that.
 constexpr double kLeastOfStrongest = 0.4;
 
 /// Hangs bones whose surface adjoins no bone above them on the bone that they share most with,
@@ -109,7 +110,7 @@ class Adoption {
     double most = kLeastOfStrongest * bond;
     Index parent = strongest;
     for (Index other = 0; other < parents_.size(); ++other)
-      if (!waited_[other] && is_settled(other) && shared_.of(bone, other) > most) {
+      if (!waited_[other] && shared_.of(bone, other) > most && is_settled(other)) {
         most = shared_.of(bone, other);
         parent = other;
       }

@@ -9,7 +9,8 @@ namespace sunder::aim {
 /// The bones as a tree that follows the surface. It is that of the skeleton, except that a bone
 /// whose surface does not adjoin that of any bone above it hangs on the bone that it shares most
 /// surface with: the foot of a rig for inverse kinematics, which the skeleton hangs on the root, on
-/// the leg; the fingers of a flat list of bones on the hand.
+/// the leg; the fingers of a flat list of bones on the hand. A bone that keeps its place goes
+/// before one that does not, unless it shares much less.
 class BoneTree {
  public:
   /// O(faces x influences squared + bones squared).
