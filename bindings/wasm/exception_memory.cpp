@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdlib>
+#include <stdlib.h>
 
 namespace __cxxabiv1 {
 
@@ -15,7 +16,7 @@ bool is_reserve_in_use = false;
 }  // namespace
 
 void* __aligned_malloc_with_fallback(std::size_t size) {
-  if (void* const memory = std::aligned_alloc(16, (size + 15) / 16 * 16)) return memory;
+  if (void* const memory = aligned_alloc(16, (size + 15) / 16 * 16)) return memory;
   if (is_reserve_in_use || size > kReserve) return nullptr;
   is_reserve_in_use = true;
   return reserve;

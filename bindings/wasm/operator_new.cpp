@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdlib>
 #include <new>
+#include <stdlib.h>
 
 void* operator new(std::size_t size) {
   if (void* const memory = std::malloc(size == 0 ? 1 : size)) return memory;
@@ -18,8 +19,7 @@ void* operator new[](std::size_t size, const std::nothrow_t& tag) noexcept {
 }
 void* operator new(std::size_t size, std::align_val_t alignment) {
   const auto align = static_cast<std::size_t>(alignment);
-  if (void* const memory = std::aligned_alloc(align, (size + align - 1) / align * align))
-    return memory;
+  if (void* const memory = aligned_alloc(align, (size + align - 1) / align * align)) return memory;
   throw std::bad_alloc();
 }
 void* operator new[](std::size_t size, std::align_val_t alignment) {
