@@ -2,9 +2,10 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
-#include "aim/limb_sections.h"
 #include "aim/operations.h"
+#include "aim/severing_sections.h"
 #include "aim/view.h"
 #include "core/internal/ordered.h"
 
@@ -43,6 +44,7 @@ bool is_flat(const Limb& limb, Index face, const LimbPlane& plane, double whole_
 /// Whether the plane runs in the surface instead of across it.
 bool was_cut(const Limb& limb, const std::vector<Section>& sections, const LimbPlane& plane) {
   double whole = 0, flat = 0;
+  if (sections.empty()) return false;
   for (const Section& section : sections) whole += section.length;
   for (const Section& section : sections)
     for (const Section::Line& line : section.lines)
@@ -73,29 +75,63 @@ Result<Vec3d> normal_of(const Limb& limb, const SeverOperation& sever) {
   return Vec3d(std::cos(sever.tilt) * frame->along + std::sin(sever.tilt) * frame->towards_viewer);
 }
 
-}  // namespace
+/// A limb, the plane of a cut through it, and the sections that sever it.
+struct AimedSever {
+  Limb limb;
+  LimbPlane plane;
+  SurfaceParts parts;
+  std::vector<Section> sections;
+};
 
-Result<Operation> resolve_sever(const PosedSurface& surface, const SeverOperation& sever) {
+Result<AimedSever> aim_sever(const PosedSurface& surface, const SeverOperation& sever,
+                             SeverJudge judge) {
   const Result<Limb> limb = find_limb(surface, sever.place);
   if (!limb) return limb.error();
   const Result<Vec3d> normal = normal_of(*limb, sever);
   if (!normal) return normal.error();
-  const LimbPlane plane = {*normal, dot(*normal, limb->place)};
-  const auto sections = limb_sections(*limb, plane);
-  if (!sections) return sections.error();
-  if (was_cut(*limb, *sections, plane))
+  const bool is_whole = judge == SeverJudge::whole_limb;
+  const SurfaceParts parts(*limb);
+  const auto plane_at = [&](const Limb& at) { return LimbPlane{*normal, dot(*normal, at.place)}; };
+  const LimbPlane plane = plane_at(*limb);
+  Severing severing = severing_sections(*limb, parts, plane, is_whole);
+  if (was_cut(*limb, severing.own, plane))
     return Status::failure(StatusCode::invalid_argument, limb->bones.bone(),
                            "%s: the surface lies in the plane of the cut, as where the limb was "
                            "severed before; choose another share or a tilt",
                            limb->label.c_str());
+  if (!severing.sections.empty())
+    return AimedSever{*limb, plane, parts, std::move(severing.sections)};
+  const auto is_severed_at = [&](double share) {
+    const Limb other = limb_at(*limb, share);
+    return !severing_sections(other, parts, plane_at(other), false).sections.empty();
+  };
+  return Status::failure(StatusCode::not_found, limb->bones.bone(), "%s: %s%s", limb->label.c_str(),
+                         severing.fault.c_str(),
+                         proposal(nearest_share(limb->at, is_severed_at)).c_str());
+}
+
+}  // namespace
+
+Result<Operation> resolve_sever(const PosedSurface& surface, const SeverOperation& sever,
+                                SeverJudge judge) {
+  const Result<AimedSever> aimed = aim_sever(surface, sever, judge);
+  if (!aimed) return aimed.error();
   PlaneCut cut;
-  cut.point = limb->place;
-  cut.normal = *normal;
+  cut.point = aimed->limb.place;
+  cut.normal = aimed->plane.normal;
   cut.caps = sever.caps;
   cut.cap_material = sever.cap_material;
-  for (const Section& section : *sections) cut.sections.push_back(place_on(section));
+  for (const Section& section : aimed->sections) cut.sections.push_back(place_on(section));
   cut.weights = sever.weights;
   return Operation(CutOperation{sever.pose, cut});
+}
+
+Result<SeveredPieces> find_severed_pieces(const PosedSurface& surface,
+                                          const SeverOperation& sever) {
+  const Result<AimedSever> aimed = aim_sever(surface, sever, SeverJudge::beyond_plane);
+  if (!aimed) return aimed.error();
+  const TrialCut trial(aimed->limb, aimed->parts, aimed->plane, aimed->sections);
+  return SeveredPieces{trial.severed(), trial.props()};
 }
 
 }  // namespace sunder::aim
