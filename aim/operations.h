@@ -3,20 +3,18 @@
 #include <sunder/aim/aim.h>
 
 #include "aim/posed_surface.h"
+#include "aim/trial_cut.h"
 
 namespace sunder::aim {
-
-/// Of what the limb moves on its body, most must come off: of what lies beyond the plane, or of
-/// all.
-enum class SeverJudge : std::uint8_t { beyond_plane, whole_limb };
 
 // Each function resolves one operation on the surface in the operation's pose.
 [[nodiscard]] Result<Operation> resolve_slash(const PosedSurface& surface,
                                               const SlashOperation& slash);
-/// @param judge  how much of the limb must come off.
 [[nodiscard]] Result<Operation> resolve_sever(const PosedSurface& surface,
-                                              const SeverOperation& sever,
-                                              SeverJudge judge = SeverJudge::beyond_plane);
+                                              const SeverOperation& sever);
+/// Whether a sever takes off what a judge asks for.
+[[nodiscard]] bool severs(const PosedSurface& surface, const SeverOperation& sever,
+                          const SeverJudge& judge);
 /// What comes off at a sever, before it is applied.
 [[nodiscard]] Result<SeveredPieces> find_severed_pieces(const PosedSurface& surface,
                                                         const SeverOperation& sever);

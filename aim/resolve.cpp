@@ -1,5 +1,7 @@
 #include <sunder/aim/aim.h>
 
+#include <optional>
+
 #include "aim/facing.h"
 #include "aim/limb.h"
 #include "aim/operations.h"
@@ -70,11 +72,27 @@ struct TurnView {
   }
 };
 
-/// As resolve(), but a sever must take off most of the whole limb.
-Result<Operation> resolve_whole(const aim::PosedSurface& surface, const AimedOperation& operation) {
+/// Whether an operation hits its limb; a sever, whether it takes off most of the whole limb.
+bool hits(const aim::PosedSurface& surface, const AimedOperation& operation, bool counts_props) {
   if (const auto* const sever = std::get_if<SeverOperation>(&operation))
-    return aim::resolve_sever(surface, *sever, aim::SeverJudge::whole_limb);
-  return std::visit(Resolve{surface}, operation);
+    return aim::severs(surface, *sever, {true, counts_props});
+  return static_cast<bool>(std::visit(Resolve{surface}, operation));
+}
+
+/// The share at which an operation hits, its own or the nearest one.
+std::optional<double> share_that_hits(const aim::PosedSurface& surface, AimedOperation operation) {
+  LimbPlace& place = *place_of(operation);
+  const double wanted = place.at;
+  for (const bool counts_props : {false, true}) {
+    const auto hits_at = [&](double at) {
+      place.at = at;
+      return hits(surface, operation, counts_props);
+    };
+    if (hits_at(wanted)) return wanted;
+    if (const auto share = aim::nearest_share(wanted, hits_at)) return share;
+    if (!std::holds_alternative<SeverOperation>(operation)) return {};
+  }
+  return {};
 }
 
 }  // namespace
@@ -93,14 +111,17 @@ Result<AimedOperation> at_nearest_share(const TornModel& model, const AimedOpera
     if (!surface) return surface.error();
     AimedOperation moved = operation;
     LimbPlace* const place = place_of(moved);
-    const Result<Operation> here = resolve_whole(*surface, operation);
-    if (here) return moved;
-    if (place == nullptr || here.error().code() != StatusCode::not_found) return here.error();
-    const auto share = aim::nearest_share(place->at, [&](double at) {
-      place->at = at;
-      return static_cast<bool>(resolve_whole(*surface, moved));
-    });
-    if (!share) return here.error();
+    const Result<Operation> here = std::visit(Resolve{*surface}, operation);
+    if (place == nullptr || (!here && here.error().code() != StatusCode::not_found))
+      return here ? Result<AimedOperation>(moved) : here.error();
+    const std::optional<double> share = share_that_hits(*surface, operation);
+    if (!share)
+      return here ? Status::failure(StatusCode::not_found, kNone,
+                                    "'%.60s': no share of the bone was found at which most of the "
+                                    "limb comes off; give one to sever it there all the same",
+                                    place->bone.c_str())
+                  : here.error();
+    place->at = *share;
     return moved;
   });
 }

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <utility>
 
 #include "aim/operations.h"
@@ -84,16 +85,15 @@ struct AimedSever {
 };
 
 Result<AimedSever> aim_sever(const PosedSurface& surface, const SeverOperation& sever,
-                             SeverJudge judge) {
+                             const SeverJudge& judge) {
   const Result<Limb> limb = find_limb(surface, sever.place);
   if (!limb) return limb.error();
   const Result<Vec3d> normal = normal_of(*limb, sever);
   if (!normal) return normal.error();
-  const bool is_whole = judge == SeverJudge::whole_limb;
   const SurfaceParts parts(*limb);
   const auto plane_at = [&](const Limb& at) { return LimbPlane{*normal, dot(*normal, at.place)}; };
   const LimbPlane plane = plane_at(*limb);
-  Severing severing = severing_sections(*limb, parts, plane, is_whole);
+  Severing severing = severing_sections(*limb, parts, plane, judge);
   if (was_cut(*limb, severing.own, plane))
     return Status::failure(StatusCode::invalid_argument, limb->bones.bone(),
                            "%s: the surface lies in the plane of the cut, as where the limb was "
@@ -101,20 +101,35 @@ Result<AimedSever> aim_sever(const PosedSurface& surface, const SeverOperation& 
                            limb->label.c_str());
   if (!severing.sections.empty())
     return AimedSever{*limb, plane, parts, std::move(severing.sections)};
-  const auto is_severed_at = [&](double share) {
-    const Limb other = limb_at(*limb, share);
-    return !severing_sections(other, parts, plane_at(other), false).sections.empty();
-  };
-  return Status::failure(StatusCode::not_found, limb->bones.bone(), "%s: %s%s", limb->label.c_str(),
-                         severing.fault.c_str(),
-                         proposal(nearest_share(limb->at, is_severed_at)).c_str());
+  return Status::failure(StatusCode::not_found, limb->bones.bone(), "%s: %s", limb->label.c_str(),
+                         severing.fault.c_str());
+}
+
+/// What lies beside the cut counts only where nothing else severs the limb. The failure proposes
+/// the nearest share that works.
+Result<AimedSever> aim_sever(const PosedSurface& surface, const SeverOperation& sever) {
+  const Result<AimedSever> aimed = aim_sever(surface, sever, {false, false});
+  if (aimed || aimed.error().code() != StatusCode::not_found) return aimed;
+  const Result<AimedSever> with_props = aim_sever(surface, sever, {false, true});
+  if (with_props) return with_props;
+  SeverOperation other = sever;
+  const auto share = nearest_share(sever.place.at, [&](double at) {
+    other.place.at = at;
+    return severs(surface, other, {false, true});
+  });
+  const Status& fault = aimed.error();
+  return Status::failure(fault.code(), fault.index(), "%s%s", std::string(fault.text()).c_str(),
+                         proposal(share).c_str());
 }
 
 }  // namespace
 
-Result<Operation> resolve_sever(const PosedSurface& surface, const SeverOperation& sever,
-                                SeverJudge judge) {
-  const Result<AimedSever> aimed = aim_sever(surface, sever, judge);
+bool severs(const PosedSurface& surface, const SeverOperation& sever, const SeverJudge& judge) {
+  return static_cast<bool>(aim_sever(surface, sever, judge));
+}
+
+Result<Operation> resolve_sever(const PosedSurface& surface, const SeverOperation& sever) {
+  const Result<AimedSever> aimed = aim_sever(surface, sever);
   if (!aimed) return aimed.error();
   PlaneCut cut;
   cut.point = aimed->limb.place;
@@ -128,7 +143,7 @@ Result<Operation> resolve_sever(const PosedSurface& surface, const SeverOperatio
 
 Result<SeveredPieces> find_severed_pieces(const PosedSurface& surface,
                                           const SeverOperation& sever) {
-  const Result<AimedSever> aimed = aim_sever(surface, sever, SeverJudge::beyond_plane);
+  const Result<AimedSever> aimed = aim_sever(surface, sever);
   if (!aimed) return aimed.error();
   const TrialCut trial(aimed->limb, aimed->parts, aimed->plane, aimed->sections);
   return SeveredPieces{trial.severed(), trial.props()};

@@ -36,13 +36,13 @@ std::vector<Section> own_sections(const Limb& limb, const SurfaceParts& parts,
 }  // namespace
 
 Severing severing_sections(const Limb& limb, const SurfaceParts& parts, const LimbPlane& plane,
-                           bool is_whole) {
+                           const SeverJudge& judge) {
   const std::vector<Section> all = sections_of(limb, plane);
   Severing severing;
   severing.own = own_sections(limb, parts, all);
   const auto severs = [&](std::vector<Section> sections) {
     if (sections.empty()) return false;
-    std::string fault = TrialCut(limb, parts, plane, sections).fault(is_whole);
+    std::string fault = TrialCut(limb, parts, plane, sections).fault(judge);
     if (fault.empty()) severing.sections = std::move(sections);
     if (severing.fault.empty()) severing.fault = std::move(fault);
     return !severing.sections.empty();

@@ -18,8 +18,7 @@ struct Severing {
 /// Tries the sections with a plane and takes the first that sever the limb, judged by what would
 /// come off: those that belong to the limb, those of them on its body, then others on its body, the
 /// nearest first.
-/// @param is_whole  as TrialCut::fault().
 [[nodiscard]] Severing severing_sections(const Limb& limb, const SurfaceParts& parts,
-                                         const LimbPlane& plane, bool is_whole);
+                                         const LimbPlane& plane, const SeverJudge& judge);
 
 }  // namespace sunder::aim

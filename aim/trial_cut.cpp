@@ -144,11 +144,11 @@ bool TrialCut::is_prop(const Piece& piece) const {
   return (is_near_joint(limb_) ? piece.moved : piece.going) >= kMost * piece.size;
 }
 
-std::string TrialCut::fault(bool is_whole) const {
+std::string TrialCut::fault(const SeverJudge& judge) const {
   Piece off;  // all that comes off at the sections
   double held = 0, held_of_all = 0;
   for (const Piece& piece : pieces_) {
-    if (!is_severed(piece) && !is_prop(piece)) continue;
+    if (!is_severed(piece) && !(judge.counts_props && is_prop(piece))) continue;
     held += piece.body_moved;
     held_of_all += piece.moved;
     if (!is_severed(piece)) continue;
@@ -162,8 +162,8 @@ std::string TrialCut::fault(bool is_whole) const {
   if (off.moved < kLeastMoved * off.size || off.others > kMostOfOthers * off.size)
     return "other bones move " + std::to_string(percent(off.size - off.moved, off.size)) +
            " % of what would come off there";
-  const double of = is_whole ? whole_ : is_of_body ? beyond_ : beyond_of_all_;
-  const double has = is_whole || is_of_body ? held : held_of_all;
+  const double of = judge.is_whole ? whole_ : is_of_body ? beyond_ : beyond_of_all_;
+  const double has = judge.is_whole || is_of_body ? held : held_of_all;
   if (has >= kMost * of) return {};
   return "what would come off there holds " + std::to_string(percent(has, of)) +
          " % of what the bones move on the body";

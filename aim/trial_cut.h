@@ -9,6 +9,13 @@
 
 namespace sunder::aim {
 
+/// What must come off at least.
+struct SeverJudge {
+  bool is_whole =
+      false;  ///< Most of all that the limb moves on the body, not only beyond the plane.
+  bool counts_props = false;  ///< What comes off beside the cut counts too: a head of loose parts.
+};
+
 /// What a cut through some sections of a limb would take off: the surface on the far side of them,
 /// with the separate parts that mostly move with the limb. The model is not changed.
 class TrialCut {
@@ -19,8 +26,7 @@ class TrialCut {
 
   /// Why the cut is not of the limb; empty if it is: what comes off holds most of what the limb
   /// moves on the body beyond the plane, and the limb moves most of it.
-  /// @param is_whole  whether it must hold most of all that the limb moves on the body.
-  [[nodiscard]] std::string fault(bool is_whole) const;
+  [[nodiscard]] std::string fault(const SeverJudge& judge) const;
 
   /// Places on the connected pieces that come off at the sections.
   [[nodiscard]] std::vector<PiecePlace> severed() const;

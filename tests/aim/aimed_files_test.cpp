@@ -464,10 +464,10 @@ TEST(AimedFiles, a_sever_without_a_share_takes_off_most_of_the_limb) {
   EXPECT_GT(severed, 3 * refused);
 }
 
-/// The mouth of the cactus is a part of its own, inside a neck that the bone hardly moves.
+/// The mouth of this figure is a part of its own, inside a neck that the bone hardly moves.
 TEST(AimedFiles, a_sever_that_would_miss_the_limb_is_refused_with_the_reason) {
   SUNDER_SKIP_WITHOUT_SHARED_MODELS();
-  const auto loaded = load_character(test::shared_models() / "rigged/cactoro.glb");
+  const auto loaded = load_character(test::shared_models() / "rigged/wuson.x");
   ASSERT_TRUE(loaded);
   const auto model = TornModel::create(loaded->character);
   SeverOperation sever;
