@@ -18,14 +18,18 @@ Result<Limb> find_limb(const PosedSurface& surface, const LimbPlace& place) {
   const BoneTree tree(surface);
   const Result<BoneSegment> segment = bone_segment(surface, tree, *bone);
   if (!segment) return segment.error();
+  return limb_at(Limb{surface, LimbBones(surface, tree, *bone), *segment}, place.at);
+}
+
+Limb limb_at(const Limb& limb, double at) {
   char share[32];
-  std::snprintf(share, sizeof share, " at %.3g", place.at);
-  return Limb{surface,
-              LimbBones(surface, tree, *bone),
-              *segment,
-              place.at,
-              segment->place(place.at),
-              "'" + skeleton.bones[*bone].name.substr(0, 60) + "'" + share};
+  std::snprintf(share, sizeof share, " at %.3g", at);
+  Limb other = limb;
+  other.at = at;
+  other.place = limb.segment.place(at);
+  const std::string& name = limb.surface.character().skeleton.bones[limb.bones.bone()].name;
+  other.label = "'" + name.substr(0, 60) + "'" + share;
+  return other;
 }
 
 Status check_length(const AimedLength& length, const char* what) {

@@ -2,6 +2,7 @@
 
 #include <sunder/operation/aimed_operation.h>
 
+#include <optional>
 #include <string>
 
 #include "aim/bone_segment.h"
@@ -16,8 +17,28 @@ struct Limb {
   BoneSegment segment;
   double at = 0;
   Vec3d place = Vec3d::Zero();  ///< On the bone's line.
-  std::string label;            ///< For error texts: "'LeftArm' at 0.40".
+  std::string label = {};       ///< For error texts: "'LeftArm' at 0.40".
 };
+
+/// Whether a place is in the first quarter of its bone, where the limb shares its surface with the
+/// parent.
+[[nodiscard]] inline bool is_near_joint(const Limb& limb) { return limb.at < 0.25; }
+
+/// The same limb at another share.
+[[nodiscard]] Limb limb_at(const Limb& limb, double at);
+
+/// The nearest of 20 shares of a bone that a predicate accepts, the given one left out, those
+/// towards its end first; empty if there is none.
+template <class Predicate>
+[[nodiscard]] std::optional<double> nearest_share(double at, Predicate accepts) {
+  constexpr int kSteps = 20;
+  for (int step = 1; step <= kSteps; ++step)
+    for (const int direction : {1, -1}) {
+      const double share = at + direction * step / static_cast<double>(kSteps);
+      if (share >= 0 && share <= 1 && accepts(share)) return share;
+    }
+  return {};
+}
 
 /// @return the failures of find_bone() and bone_segment(); invalid_argument for a share beyond 0
 ///         and 1.

@@ -7,7 +7,8 @@ LimbBones::LimbBones(const PosedSurface& surface, const BoneTree& tree, Index bo
   const Skeleton& skeleton = surface.character().skeleton;
   roles_.assign(skeleton.bones.size(), BoneRole::other);
   if (const Index parent = tree.moving_parent(bone); parent != kNone)
-    roles_[parent] = BoneRole::parent;
+    for (Index above = parent; above != kNone; above = tree.parent(above))
+      roles_[above] = above == parent ? BoneRole::parent : BoneRole::above;
   const std::vector<Index> own = tree.same_bones(skeleton, bone);
   for (const Index top : own)
     for (Index i = 0; i < roles_.size(); ++i)

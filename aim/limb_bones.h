@@ -13,18 +13,22 @@ enum class BoneRole : std::uint8_t {
   own,     ///< The bone that the limb is named after, see BoneTree::same_bones().
   below,   ///< In the subtree of that bone.
   parent,  ///< The nearest bone above that moves something.
+  above,   ///< Above that one.
   other,
 };
 
 /// Weights of a place on the surface, summed by role.
 struct LimbShares {
-  std::array<double, 4> of_role = {};
+  std::array<double, 5> of_role = {};
 
   [[nodiscard]] double own() const { return of_role[0]; }
   [[nodiscard]] double below() const { return of_role[1]; }
   [[nodiscard]] double limb() const { return of_role[0] + of_role[1]; }
   [[nodiscard]] double parent() const { return of_role[2]; }
-  [[nodiscard]] double other() const { return of_role[3]; }
+  /// Of all that are neither of the limb nor its parent.
+  [[nodiscard]] double other() const { return of_role[3] + of_role[4]; }
+  /// Of those that are not above the limb either: of other limbs.
+  [[nodiscard]] double other_limbs() const { return of_role[4]; }
   void add(const LimbShares& shares, double factor) {
     for (std::size_t i = 0; i < of_role.size(); ++i) of_role[i] += factor * shares.of_role[i];
   }

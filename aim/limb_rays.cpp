@@ -30,7 +30,7 @@ LimbRays::LimbRays(const Limb& limb, const ViewFrame& frame, std::span<const Sec
   double left = std::numeric_limits<double>::infinity(), right = -left;
   for (const Section& section : sections)
     for (const Section::Line& line : section.lines) {
-      section_faces_.push_back(line.face);
+      if (is_moved_by_limb(line.face)) section_faces_.push_back(line.face);
       for (const Vec3d& end : line.ends) {
         const double across = dot(end - limb.place, frame.across);
         left = std::min(left, across);
@@ -41,10 +41,13 @@ LimbRays::LimbRays(const Limb& limb, const ViewFrame& frame, std::span<const Sec
   middle_ = limb.place + 0.5 * (left + right) * frame.across;
 }
 
-bool LimbRays::may_belong(Index face, double reach) const {
+bool LimbRays::is_moved_by_limb(Index face) const {
   const LimbShares shares = limb_.bones.shares_of_face(face);
-  if (shares.limb() < kLeastRayLimb || shares.limb() + shares.parent() < kLeastLimbAndParent)
-    return false;
+  return shares.limb() >= kLeastRayLimb && shares.limb() + shares.parent() >= kLeastLimbAndParent;
+}
+
+bool LimbRays::may_belong(Index face, double reach) const {
+  if (!is_moved_by_limb(face)) return false;
   const std::array<Vec3d, 3> corners = limb_.surface.corners(face);
   // Faces beyond the reach on one side along the limb are another part of it: a bent forearm is
   // not in front of its upper arm.

@@ -52,6 +52,7 @@ class LimbRays {
   [[nodiscard]] bool meets_others(const Vec3d& offset, double low, double high) const;
 
  private:
+  [[nodiscard]] bool is_moved_by_limb(Index face) const;
   [[nodiscard]] bool may_belong(Index face, double reach) const;
   /// @param is_limb  per face; the others that the limb moves are kin.
   [[nodiscard]] HitHeights all_hits(const Vec3d& offset, const std::vector<bool>& is_limb) const;

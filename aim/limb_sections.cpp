@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <numeric>
 #include <string>
 
+#include "aim/joined_sets.h"
+#include "aim/surface_parts.h"
 #include "core/internal/ordered.h"
 
 namespace sunder::aim {
@@ -21,13 +24,10 @@ constexpr double kLeastLimb = 0.5;
 /// other than the parent no more.
 constexpr double kLeastLimbAtJoint = 0.2;
 constexpr double kMostOtherAtJoint = 0.2;
-constexpr double kNearJoint = 0.25;  ///< Share of the bone.
 /// A run that winds round the bone by more than half a turn goes round it: it may have been torn.
 constexpr double kRoundBone = 0.5;
 /// Sections that do not go round the bone belong to the limb up to this multiple of its radius.
 constexpr double kReachRadii = 1.25;
-/// Shares of a bone at which another section is looked for, to be proposed.
-constexpr int kShareSteps = 20;
 
 /// Where a plane crosses the faces: the first and last half-edge of each line, and its ends.
 struct CrossedFace {
@@ -60,11 +60,6 @@ std::vector<CrossedFace> crossed_faces(const PosedSurface& surface, const LimbPl
   return crossed;
 }
 
-Index find_root(std::vector<Index>& parents, Index i) {
-  while (parents[i] != i) i = parents[i] = parents[parents[i]];
-  return i;
-}
-
 /// Signed angle at `centre` under which a line is seen in the plane, in turns.
 double turns_of(const Section::Line& line, const Vec3d& centre, const Vec3d& normal) {
   const Vec3d a = line.ends[0] - centre, b = line.ends[1] - centre;
@@ -73,17 +68,11 @@ double turns_of(const Section::Line& line, const Vec3d& centre, const Vec3d& nor
          (2 * std::numbers::pi);
 }
 
-double distance(const Vec3d& place, const Section::Line& line) {
+double distance_to_line(const Vec3d& place, const Section::Line& line) {
   const Vec3d along = line.ends[1] - line.ends[0], way = place - line.ends[0];
   const double squared = squared_norm(along);
   const double part = squared > 0 ? std::clamp(dot(way, along) / squared, 0.0, 1.0) : 0.0;
   return norm(way - part * along);
-}
-
-double distance(const Vec3d& place, const Section& section) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const Section::Line& line : section.lines) least = std::min(least, distance(place, line));
-  return least;
 }
 
 /// The largest distance of a section's ends from a place.
@@ -94,20 +83,18 @@ double radius(const Vec3d& place, const Section& section) {
   return largest;
 }
 
-bool is_round_bone(const Section& section) { return std::abs(section.turns) > kRoundBone; }
-
 /// Whether the bone, its subtree and, near the joint, its parent move a section.
 bool is_moved_by_limb(const Limb& limb, const Section& section) {
   const LimbShares& shares = section.shares;
   return shares.limb() >= kLeastLimb ||
-         (limb.at < kNearJoint && shares.limb() >= kLeastLimbAtJoint &&
+         (is_near_joint(limb) && shares.limb() >= kLeastLimbAtJoint &&
           shares.other() <= kMostOtherAtJoint);
 }
 
 /// Whether the bone itself moves a section: a club that its hand holds is not on the arm.
 bool is_moved_by_bone(const Limb& limb, const Section& section) {
   const LimbShares& shares = section.shares;
-  return shares.own() >= kLeastLimb || (limb.at < kNearJoint && shares.own() >= kLeastLimbAtJoint &&
+  return shares.own() >= kLeastLimb || (is_near_joint(limb) && shares.own() >= kLeastLimbAtJoint &&
                                         shares.own() + shares.parent() >= 1 - kMostOtherAtJoint);
 }
 
@@ -137,8 +124,7 @@ std::string movers_of(const Limb& limb, const Section& section) {
 std::vector<Section> sections_of(const Limb& limb, const LimbPlane& plane) {
   const Surface& surface = limb.surface.surface();
   const std::vector<CrossedFace> crossed = crossed_faces(limb.surface, plane);
-  std::vector<Index> parents(crossed.size());
-  std::iota(parents.begin(), parents.end(), Index{0});
+  JoinedSets joined(crossed.size());
   for (Index i = 0; i < crossed.size(); ++i)
     for (const Index h : crossed[i].half_edges) {
       if (surface.twin[h] == kNone) continue;
@@ -146,13 +132,12 @@ std::vector<Section> sections_of(const Limb& limb, const LimbPlane& plane) {
           crossed.begin(), crossed.end(), surface.twin[h] / 3,
           [](const CrossedFace& face, Index wanted) { return face.face < wanted; });
       if (other != crossed.end() && other->face == surface.twin[h] / 3)
-        parents[find_root(parents, i)] =
-            find_root(parents, static_cast<Index>(other - crossed.begin()));
+        joined.join(i, static_cast<Index>(other - crossed.begin()));
     }
   std::vector<Index> section_of(crossed.size(), kNone);
   std::vector<Section> sections;
   for (Index i = 0; i < crossed.size(); ++i) {
-    Index& number = section_of[find_root(parents, i)];
+    Index& number = section_of[joined.set_of(i)];
     if (number == kNone) {
       number = static_cast<Index>(sections.size());
       sections.emplace_back();
@@ -161,6 +146,8 @@ std::vector<Section> sections_of(const Limb& limb, const LimbPlane& plane) {
     const Section::Line line{crossed[i].face, crossed[i].ends};
     const double length = norm(line.ends[1] - line.ends[0]);
     section.lines.push_back(line);
+    for (const Index h : crossed[i].half_edges)
+      if (surface.twin[h] == kNone) section.is_closed = false;
     section.length += length;
     section.shares.add(limb.bones.shares_of_face(line.face), length);
     section.middle += 0.5 * length * (line.ends[0] + line.ends[1]);
@@ -174,10 +161,16 @@ std::vector<Section> sections_of(const Limb& limb, const LimbPlane& plane) {
   return sections;
 }
 
-namespace {
+double distance(const Vec3d& place, const Section& section) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Section::Line& line : section.lines)
+    least = std::min(least, distance_to_line(place, line));
+  return least;
+}
 
-/// Those of the sections that belong to the limb.
-std::vector<Section> choose(const Limb& limb, std::vector<Section> sections) {
+bool is_round_bone(const Section& section) { return std::abs(section.turns) > kRoundBone; }
+
+std::vector<Section> sections_of_limb(const Limb& limb, std::vector<Section> sections) {
   // The loops of the limb round its bone say how far it reaches. Where none goes round the bone,
   // because the surface is open or the bone outside of it, the nearest section of the limb does.
   std::vector<bool> is_chosen(sections.size(), false);
@@ -210,47 +203,56 @@ std::vector<Section> choose(const Limb& limb, std::vector<Section> sections) {
   return chosen;
 }
 
-/// "; at 0.65 it has a section of its own": the nearest share at which a plane with this normal
-/// crosses the limb. Empty if there is none.
-std::string nearest_share(const Limb& limb, const Vec3d& normal) {
-  for (int step = 1; step <= kShareSteps; ++step)
-    for (const int direction : {1, -1}) {
-      const double at = limb.at + direction * step / static_cast<double>(kShareSteps);
-      if (at < 0 || at > 1) continue;
-      Limb other = limb;
-      other.at = at;
-      other.place = limb.segment.place(at);
-      if (choose(other, sections_of(other, {normal, dot(normal, other.place)})).empty()) continue;
-      char text[80];
-      std::snprintf(text, sizeof text, "; at %.3g it has a section of its own", at);
-      return text;
-    }
-  return {};
-}
-
-Status no_section(const Limb& limb, const std::vector<Section>& sections, const Vec3d& normal) {
-  const std::string nearest = nearest_share(limb, normal);
+std::string other_movers(const Limb& limb, const std::vector<Section>& sections) {
   const Section* there = nullptr;
   for (const Section& section : sections)
     if (is_round_bone(section) &&
         (there == nullptr || distance(limb.place, section) < distance(limb.place, *there)))
       there = &section;
-  if (there == nullptr)
-    return Status::failure(StatusCode::not_found, limb.bones.bone(),
-                           "%s: the limb has no surface there%s", limb.label.c_str(),
-                           nearest.c_str());
-  return Status::failure(StatusCode::not_found, limb.bones.bone(),
-                         "%s: the section there is not of the limb alone; it is moved by %s%s",
-                         limb.label.c_str(), movers_of(limb, *there).c_str(), nearest.c_str());
+  if (there == nullptr) return "the limb has no surface there";
+  return "the section there is not of the limb alone; it is moved by " + movers_of(limb, *there);
+}
+
+std::string proposal(const std::optional<double>& share) {
+  if (!share) return {};
+  char text[80];
+  std::snprintf(text, sizeof text, "; at %.3g it has a section of its own", *share);
+  return text;
+}
+
+namespace {
+
+/// The sections of the limb; of those, or of the ones on its body, the first that has some on the
+/// body. Where the body has none, those that go round the bone: an armour without a leg in it.
+std::vector<Section> choose(const Limb& limb, const SurfaceParts& parts,
+                            const std::vector<Section>& sections) {
+  const auto is_on_body = [&](const Section& section) {
+    return parts.is_of_body(section.lines.front().face);
+  };
+  std::vector<Section> chosen = sections_of_limb(limb, sections);
+  if (std::ranges::any_of(chosen, is_on_body)) return chosen;
+  std::vector<Section> of_body;
+  std::ranges::copy_if(sections, std::back_inserter(of_body), is_on_body);
+  of_body = sections_of_limb(limb, std::move(of_body));
+  if (!of_body.empty()) return of_body;
+  return std::ranges::any_of(chosen, is_round_bone) ? chosen : std::vector<Section>();
 }
 
 }  // namespace
 
 Result<std::vector<Section>> limb_sections(const Limb& limb, const LimbPlane& plane) {
-  std::vector<Section> sections = sections_of(limb, plane);
-  std::vector<Section> chosen = choose(limb, sections);
-  if (chosen.empty()) return no_section(limb, sections, plane.normal);
-  return chosen;
+  const SurfaceParts parts(limb);
+  const std::vector<Section> sections = sections_of(limb, plane);
+  std::vector<Section> chosen = choose(limb, parts, sections);
+  if (!chosen.empty()) return chosen;
+  const auto has_sections = [&](double share) {
+    const Limb other = limb_at(limb, share);
+    const LimbPlane moved = {plane.normal, dot(plane.normal, other.place)};
+    return !choose(other, parts, sections_of(other, moved)).empty();
+  };
+  return Status::failure(StatusCode::not_found, limb.bones.bone(), "%s: %s%s", limb.label.c_str(),
+                         other_movers(limb, sections).c_str(),
+                         proposal(nearest_share(limb.at, has_sections)).c_str());
 }
 
 }  // namespace sunder::aim

@@ -1,8 +1,9 @@
 #pragma once
 
-#include <sunder/operation/aimed_operation.h>
+#include <sunder/aim/aim.h>
 
 #include "aim/posed_surface.h"
+#include "aim/trial_cut.h"
 
 namespace sunder::aim {
 
@@ -11,6 +12,12 @@ namespace sunder::aim {
                                               const SlashOperation& slash);
 [[nodiscard]] Result<Operation> resolve_sever(const PosedSurface& surface,
                                               const SeverOperation& sever);
+/// Whether a sever takes off what a judge asks for.
+[[nodiscard]] bool severs(const PosedSurface& surface, const SeverOperation& sever,
+                          const SeverJudge& judge);
+/// What comes off at a sever, before it is applied.
+[[nodiscard]] Result<SeveredPieces> find_severed_pieces(const PosedSurface& surface,
+                                                        const SeverOperation& sever);
 [[nodiscard]] Result<Operation> resolve_puncture(const PosedSurface& surface,
                                                  const PunctureOperation& puncture);
 [[nodiscard]] Result<Operation> resolve_incision(const PosedSurface& surface,

@@ -1,5 +1,9 @@
 #include <sunder/aim/aim.h>
 
+#include <optional>
+
+#include "aim/facing.h"
+#include "aim/limb.h"
 #include "aim/operations.h"
 #include "aim/posed_surface.h"
 #include "core/internal/out_of_memory.h"
@@ -24,15 +28,124 @@ struct Resolve {
   }
 };
 
+const PoseSpec& pose_of(const AimedOperation& operation) {
+  return std::visit([](const auto& of) -> const PoseSpec& { return of.pose; }, operation);
+}
+
+/// The place on a limb; null for an incision, which has none.
+LimbPlace* place_of(AimedOperation& operation) {
+  return std::visit(
+      [](auto& of) -> LimbPlace* {
+        if constexpr (requires { of.place; })
+          return &of.place;
+        else
+          return nullptr;
+      },
+      operation);
+}
+
+/// Writes the view of an operation as a direction; of a sever only if it leans.
+struct TurnView {
+  const aim::PosedSurface& surface;
+  const Vec3d& front;
+
+  Status operator()(SlashOperation& slash) const { return turn(slash.place, slash.from); }
+  Status operator()(PunctureOperation& puncture) const {
+    return turn(puncture.place, puncture.from);
+  }
+  Status operator()(SeverOperation& sever) const {
+    return sever.tilt == 0 ? Status() : turn(sever.place, sever.from);
+  }
+  Status operator()(IncisionOperation&) const { return {}; }
+
+ private:
+  Status turn(const LimbPlace& place, std::optional<View>& from) const {
+    if (from && std::holds_alternative<ViewDirection>(*from)) return {};
+    if (from) {
+      from = ViewDirection{aim::side_direction(std::get<ViewSide>(*from), front)};
+      return {};
+    }
+    const Result<aim::Limb> limb = aim::find_limb(surface, place);
+    if (!limb) return limb.error();
+    from = ViewDirection{aim::default_direction(*limb, front)};
+    return {};
+  }
+};
+
+/// Whether an operation hits its limb; a sever, whether it takes off most of the whole limb.
+bool hits(const aim::PosedSurface& surface, const AimedOperation& operation, bool counts_props) {
+  if (const auto* const sever = std::get_if<SeverOperation>(&operation))
+    return aim::severs(surface, *sever, {true, counts_props});
+  return static_cast<bool>(std::visit(Resolve{surface}, operation));
+}
+
+/// The share at which an operation hits, its own or the nearest one.
+std::optional<double> share_that_hits(const aim::PosedSurface& surface, AimedOperation operation) {
+  LimbPlace& place = *place_of(operation);
+  const double wanted = place.at;
+  for (const bool counts_props : {false, true}) {
+    const auto hits_at = [&](double at) {
+      place.at = at;
+      return hits(surface, operation, counts_props);
+    };
+    if (hits_at(wanted)) return wanted;
+    if (const auto share = aim::nearest_share(wanted, hits_at)) return share;
+    if (!std::holds_alternative<SeverOperation>(operation)) return {};
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<Operation> resolve(const TornModel& model, const AimedOperation& operation) {
   return or_out_of_memory([&]() -> Result<Operation> {
-    const PoseSpec& pose =
-        std::visit([](const auto& aimed) -> const PoseSpec& { return aimed.pose; }, operation);
-    const auto surface = aim::PosedSurface::create(model, pose);
+    const auto surface = aim::PosedSurface::create(model, pose_of(operation));
     if (!surface) return surface.error();
     return std::visit(Resolve{*surface}, operation);
+  });
+}
+
+Result<AimedOperation> at_nearest_share(const TornModel& model, const AimedOperation& operation) {
+  return or_out_of_memory([&]() -> Result<AimedOperation> {
+    const auto surface = aim::PosedSurface::create(model, pose_of(operation));
+    if (!surface) return surface.error();
+    AimedOperation moved = operation;
+    LimbPlace* const place = place_of(moved);
+    const Result<Operation> here = std::visit(Resolve{*surface}, operation);
+    if (place == nullptr || (!here && here.error().code() != StatusCode::not_found))
+      return here ? Result<AimedOperation>(moved) : here.error();
+    const std::optional<double> share = share_that_hits(*surface, operation);
+    if (!share)
+      return here ? Status::failure(StatusCode::not_found, kNone,
+                                    "'%.60s': no share of the bone was found at which most of the "
+                                    "limb comes off; give one to sever it there all the same",
+                                    place->bone.c_str())
+                  : here.error();
+    place->at = *share;
+    return moved;
+  });
+}
+
+Result<SeveredPieces> severed_pieces(const TornModel& model, const SeverOperation& sever) {
+  return or_out_of_memory([&]() -> Result<SeveredPieces> {
+    const auto surface = aim::PosedSurface::create(model, sever.pose);
+    if (!surface) return surface.error();
+    return aim::find_severed_pieces(*surface, sever);
+  });
+}
+
+Result<Facing> find_facing(const Character& character) {
+  return or_out_of_memory([&] { return aim::facing_of(character); });
+}
+
+Result<AimedOperation> seen_by(const TornModel& model, const AimedOperation& operation,
+                               const Vec3d& front) {
+  return or_out_of_memory([&]() -> Result<AimedOperation> {
+    const auto surface = aim::PosedSurface::create(model, pose_of(operation));
+    if (!surface) return surface.error();
+    AimedOperation seen = operation;
+    if (const Status status = std::visit(TurnView{*surface, front}, seen); !status) return status;
+    return seen;
   });
 }
 

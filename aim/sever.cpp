@@ -2,9 +2,11 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <utility>
 
-#include "aim/limb_sections.h"
 #include "aim/operations.h"
+#include "aim/severing_sections.h"
 #include "aim/view.h"
 #include "core/internal/ordered.h"
 
@@ -43,6 +45,7 @@ bool is_flat(const Limb& limb, Index face, const LimbPlane& plane, double whole_
 /// Whether the plane runs in the surface instead of across it.
 bool was_cut(const Limb& limb, const std::vector<Section>& sections, const LimbPlane& plane) {
   double whole = 0, flat = 0;
+  if (sections.empty()) return false;
   for (const Section& section : sections) whole += section.length;
   for (const Section& section : sections)
     for (const Section::Line& line : section.lines)
@@ -73,29 +76,77 @@ Result<Vec3d> normal_of(const Limb& limb, const SeverOperation& sever) {
   return Vec3d(std::cos(sever.tilt) * frame->along + std::sin(sever.tilt) * frame->towards_viewer);
 }
 
-}  // namespace
+/// A limb, the plane of a cut through it, and the sections that sever it.
+struct AimedSever {
+  Limb limb;
+  LimbPlane plane;
+  SurfaceParts parts;
+  std::vector<Section> sections;
+};
 
-Result<Operation> resolve_sever(const PosedSurface& surface, const SeverOperation& sever) {
+Result<AimedSever> aim_sever(const PosedSurface& surface, const SeverOperation& sever,
+                             const SeverJudge& judge) {
   const Result<Limb> limb = find_limb(surface, sever.place);
   if (!limb) return limb.error();
   const Result<Vec3d> normal = normal_of(*limb, sever);
   if (!normal) return normal.error();
-  const LimbPlane plane = {*normal, dot(*normal, limb->place)};
-  const auto sections = limb_sections(*limb, plane);
-  if (!sections) return sections.error();
-  if (was_cut(*limb, *sections, plane))
+  const SurfaceParts parts(*limb);
+  const auto plane_at = [&](const Limb& at) { return LimbPlane{*normal, dot(*normal, at.place)}; };
+  const LimbPlane plane = plane_at(*limb);
+  Severing severing = severing_sections(*limb, parts, plane, judge);
+  if (was_cut(*limb, severing.own, plane))
     return Status::failure(StatusCode::invalid_argument, limb->bones.bone(),
                            "%s: the surface lies in the plane of the cut, as where the limb was "
                            "severed before; choose another share or a tilt",
                            limb->label.c_str());
+  if (!severing.sections.empty())
+    return AimedSever{*limb, plane, parts, std::move(severing.sections)};
+  return Status::failure(StatusCode::not_found, limb->bones.bone(), "%s: %s", limb->label.c_str(),
+                         severing.fault.c_str());
+}
+
+/// What lies beside the cut counts only where nothing else severs the limb. The failure proposes
+/// the nearest share that works.
+Result<AimedSever> aim_sever(const PosedSurface& surface, const SeverOperation& sever) {
+  const Result<AimedSever> aimed = aim_sever(surface, sever, {false, false});
+  if (aimed || aimed.error().code() != StatusCode::not_found) return aimed;
+  const Result<AimedSever> with_props = aim_sever(surface, sever, {false, true});
+  if (with_props) return with_props;
+  SeverOperation other = sever;
+  const auto share = nearest_share(sever.place.at, [&](double at) {
+    other.place.at = at;
+    return severs(surface, other, {false, true});
+  });
+  const Status& fault = aimed.error();
+  return Status::failure(fault.code(), fault.index(), "%s%s", std::string(fault.text()).c_str(),
+                         proposal(share).c_str());
+}
+
+}  // namespace
+
+bool severs(const PosedSurface& surface, const SeverOperation& sever, const SeverJudge& judge) {
+  return static_cast<bool>(aim_sever(surface, sever, judge));
+}
+
+Result<Operation> resolve_sever(const PosedSurface& surface, const SeverOperation& sever) {
+  const Result<AimedSever> aimed = aim_sever(surface, sever);
+  if (!aimed) return aimed.error();
   PlaneCut cut;
-  cut.point = limb->place;
-  cut.normal = *normal;
+  cut.point = aimed->limb.place;
+  cut.normal = aimed->plane.normal;
   cut.caps = sever.caps;
   cut.cap_material = sever.cap_material;
-  for (const Section& section : *sections) cut.sections.push_back(place_on(section));
+  for (const Section& section : aimed->sections) cut.sections.push_back(place_on(section));
   cut.weights = sever.weights;
   return Operation(CutOperation{sever.pose, cut});
+}
+
+Result<SeveredPieces> find_severed_pieces(const PosedSurface& surface,
+                                          const SeverOperation& sever) {
+  const Result<AimedSever> aimed = aim_sever(surface, sever);
+  if (!aimed) return aimed.error();
+  const TrialCut trial(aimed->limb, aimed->parts, aimed->plane, aimed->sections);
+  return SeveredPieces{trial.severed(), trial.props()};
 }
 
 }  // namespace sunder::aim

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "aim/facing.h"
 #include "core/internal/ordered.h"
 #include "operation/internal/view_sides.h"
 
@@ -10,23 +11,16 @@ namespace {
 
 /// Sine of the least angle between view and bone: 15 degrees.
 constexpr double kLeastSine = 0.25;
-/// Cosine of the least angle between a bone and the front at which it is seen from there unless
-/// told otherwise: 30 degrees.
-constexpr double kMostCosine = 0.866;
-
-Vec3d direction_of(ViewSide side) {
-  return kViewSides[static_cast<std::size_t>(side)].towards_viewer();
+/// The front of a model as it stands in a glTF file.
+Vec3d front_of_files() {
+  return kViewSides[static_cast<std::size_t>(ViewSide::front)].towards_viewer();
 }
 
 /// The direction towards the viewer, of any length.
 Vec3d direction_of(const Limb& limb, const std::optional<View>& from) {
-  if (!from) {
-    const Vec3d front = direction_of(ViewSide::front);
-    return std::abs(dot(front, limb.segment.direction())) < kMostCosine
-               ? front
-               : direction_of(ViewSide::left);
-  }
-  if (const auto* const side = std::get_if<ViewSide>(&*from)) return direction_of(*side);
+  if (!from) return default_direction(limb, front_of_files());
+  if (const auto* const side = std::get_if<ViewSide>(&*from))
+    return side_direction(*side, front_of_files());
   const ViewDirection& given = std::get<ViewDirection>(*from);
   return given.space == ViewDirection::Space::model
              ? given.direction

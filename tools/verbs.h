@@ -60,6 +60,10 @@ struct TearRequest {
   struct Aimed {
     AimedOperation operation;
     std::string option;
+    /// Whether it gives a share of the bone; otherwise the nearest one counts that works.
+    bool has_share = false;
+    std::optional<bool> detaches = {};  ///< Of a sever; empty: if pieces are written.
+    bool takes_props = true;            ///< Whether separate parts come off with the limb.
   };
   std::filesystem::path model, operations;      ///< No log: empty.
   std::vector<Aimed> aimed;                     ///< In the order in which they were given.
@@ -77,8 +81,10 @@ struct TearRequest {
   bool weight_errors = false;                   ///< Measured for the report.
   bool count_topology = false;                  ///< Per operation, for the report.
   OpenLips open = OpenLips::no;
-  bool dry_run = false;  ///< Writes no files.
-  bool force = false;    ///< Outputs may overwrite inputs.
+  std::optional<Vec3d> facing;  ///< Of the character, for `aimed`; empty: as the rig tells.
+  bool keep_going = false;      ///< Operations that fail are reported and left out.
+  bool dry_run = false;         ///< Writes no files.
+  bool force = false;           ///< Outputs may overwrite inputs.
   Verbosity verbosity = Verbosity::normal;
   std::optional<std::string> pieces;  ///< Beginning of the names of files for detached pieces.
   bool pieces_are_animated = false;

@@ -118,5 +118,70 @@ TEST_F(AimedCommand, logs_name_the_operation_that_misses) {
   EXPECT_THAT(result.err, HasSubstr("unknown.json: /operations/1: no bone is named 'Arm'"));
 }
 
+TEST_F(AimedCommand, keep_going_leaves_out_what_cannot_be_applied) {
+  const CommandResult stopped =
+      tear({"--sever", "Trunc3@0.5", "--slash", "Trunk2@0.5", "--report", "-"});
+  EXPECT_EQ(stopped.exit_code, 2);
+  const CommandResult result = tear({"--keep-going", "--sever", "Trunc3@0.5", "--slash",
+                                     "Trunk2@0.5", "--report", path("going.json")});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("no bone is named 'Trunc3'"));
+  const json operations = read_json("going.json")["operations"];
+  ASSERT_EQ(operations.size(), 1u);
+  EXPECT_EQ(operations[0]["op"], "tear");
+  const CommandResult summary = tear({"--keep-going", "--sever", "Trunc3", "--slash", "Trunk2"});
+  EXPECT_THAT(summary.out, HasSubstr("1 done, 1 left out"));
+  EXPECT_EQ(tear({"--keep-going", "--slash", "Trunk2"}).exit_code, 0);
+}
+
+TEST_F(AimedCommand, a_severed_limb_is_taken_off_and_written) {
+  const auto operations_of = [](const std::vector<std::string>& options) {
+    std::vector<std::string> all = {"--report", path("off.json"), "--force"};
+    all.insert(all.end(), options.begin(), options.end());
+    const CommandResult result = tear(all);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    const json report = read_json("off.json");
+    std::vector<std::string> names;
+    for (const json& operation : report["operations"]) names.push_back(operation["op"]);
+    return names;
+  };
+  using testing::ElementsAre;
+  EXPECT_THAT(operations_of({"--sever", "Trunk4@0.5"}), ElementsAre("cut"));
+  EXPECT_THAT(operations_of({"--sever", "Trunk4@0.5,detach"}), ElementsAre("cut", "detach"));
+  EXPECT_THAT(operations_of({"--sever", "Trunk4@0.5,detach=false", "--pieces", path("kept")}),
+              ElementsAre("cut"));
+  EXPECT_FALSE(exists("kept1.glb"));
+  EXPECT_THAT(operations_of({"--sever", "Trunk4@0.5,parts=none", "--pieces", path("top")}),
+              ElementsAre("cut", "detach"));
+  EXPECT_TRUE(exists("top1.glb"));
+  EXPECT_FALSE(exists("top2.glb"));
+  const CommandResult parts = tear({"--sever", "Trunk4@0.5,parts=some"});
+  EXPECT_EQ(parts.exit_code, 2);
+  EXPECT_THAT(parts.err, HasSubstr("parts: expected all or none"));
+  EXPECT_THAT(tear({"--sever", "Trunk4@0.5,detach=maybe"}).err, HasSubstr("detach: expected"));
+  EXPECT_THAT(tear({"--slash", "Trunk4@0.5,detach"}).err, HasSubstr("unknown field 'detach'"));
+}
+
+TEST_F(AimedCommand, says_where_the_character_faces) {
+  const auto stroke_of = [](const std::vector<std::string>& options) {
+    std::vector<std::string> all = {"--save-log", path("facing.json"), "--force"};
+    all.insert(all.end(), options.begin(), options.end());
+    const CommandResult result = tear(all);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return read_json("facing.json")["operations"][0]["stroke"];
+  };
+  const json back = stroke_of({"--slash", "Trunk2@0.5,from=back"});
+  EXPECT_NE(stroke_of({"--slash", "Trunk2@0.5"}), back);
+  EXPECT_EQ(stroke_of({"--slash", "Trunk2@0.5", "--facing", "-z"}), back);
+  EXPECT_EQ(stroke_of({"--slash", "Trunk2@0.5,from=front", "--facing", "0/0/-3"}), back);
+  const CommandResult uncertain = tear({"--slash", "Trunk2@0.5"});
+  EXPECT_THAT(uncertain.err, HasSubstr("which way the character faces is uncertain"));
+  EXPECT_THAT(tear({"--slash", "Trunk2@0.5", "--facing", "+z"}).err,
+              testing::Not(HasSubstr("uncertain")));
+  for (const char* const direction : {"up", "0/1/0", "1/2", "+y", ""})
+    EXPECT_THAT(tear({"--slash", "Trunk2@0.5", "--facing", direction}).err,
+                HasSubstr("is no direction"));
+}
+
 }  // namespace
 }  // namespace sunder::command_test

@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/internal/bone_sides.h"
 #include "skinning/internal/reference.h"
 #include "support/models/make_model.h"
 #include "support/models/random_operations.h"

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "tools/command_line/options.h"
+#include "tools/model/name_at.h"
 #include "tools/tear/aimed_option.h"
 
 namespace sunder::tools {
@@ -22,6 +23,20 @@ void add(CLI::App& verb, const char* name, const char* type, const char* descrip
       ->group("Aimed operations");
 }
 
+/// The direction that "+x" or "0.5/0/1" names; empty for another text.
+std::optional<Vec3d> facing_in(const std::string& text) {
+  static const std::map<std::string, Vec3d> kAxes = {{"+x", Vec3d(1, 0, 0)},
+                                                     {"-x", Vec3d(-1, 0, 0)},
+                                                     {"+z", Vec3d(0, 0, 1)},
+                                                     {"-z", Vec3d(0, 0, -1)}};
+  const auto axis = kAxes.find(text);
+  if (axis != kAxes.end()) return axis->second;
+  const std::optional<Vec3d> direction = direction_in(text);
+  const bool is_level =
+      direction && (direction->x() != 0 || direction->z() != 0) && direction->allFinite();
+  return is_level ? std::optional(Vec3d(direction->x(), 0, direction->z())) : std::nullopt;
+}
+
 }  // namespace
 
 void add_aimed_operations(CLI::App& verb) {
@@ -33,7 +48,8 @@ void add_aimed_operations(CLI::App& verb) {
       "below; applied in order, after --ops");
   add(verb, kSever, "BONE[@SHARE][,FIELD=VALUE...]",
       "Cut through the limb of a bone and nothing else, without a share at its joint; fields: "
-      "tilt, from, caps, cap_material");
+      "tilt, from, caps, cap_material; detach: take off what comes free, with hats, eyes and axes "
+      "that move with it, or parts=none without them");
   add(verb, kPuncture, "BONE[@SHARE][,FIELD=VALUE...]",
       "Bore into the limb of a bone; fields: from, radius, through, depth, wall, "
       "wall_material, chord_tolerance");
@@ -44,9 +60,23 @@ void add_aimed_operations(CLI::App& verb) {
       ->type_name("POSE")
       ->default_str("rest")
       ->group("Aimed operations");
+  verb.add_option(
+          "--facing",
+          "Which way the character faces, for from= of the options above: +x, -x, +z, -z or x/y/z; "
+          "without it, as its rig tells")
+      ->type_name("DIRECTION")
+      ->group("Aimed operations");
 }
 
 void read_aimed_operations(const CLI::App& verb, TearRequest& request) {
+  if (verb.count("--facing") > 0) {
+    const std::string text = verb.get_option("--facing")->results().back();
+    request.facing = facing_in(text);
+    if (!request.facing)
+      throw CLI::ValidationError("--facing", "'" + text +
+                                                 "' is no direction; expected +x, -x, +z, -z or a "
+                                                 "level direction such as 1/0/1");
+  }
   std::optional<std::string> pose;
   if (verb.count("--pose") > 0) pose = verb.get_option("--pose")->results().back();
   std::map<std::string, std::size_t> read;
@@ -54,10 +84,9 @@ void read_aimed_operations(const CLI::App& verb, TearRequest& request) {
     const std::string name = option->get_name();
     if (name != kSlash && name != kSever && name != kPuncture) continue;
     const std::string text = option->results().at(read[name]++);
-    const auto operation = parse_aimed_option(name.substr(2), text, pose);
-    if (!operation)
-      throw CLI::ValidationError(name + " " + text, std::string(operation.error().text()));
-    request.aimed.push_back({*operation, name + " " + text});
+    const auto aimed = parse_aimed_option(name.substr(2), text, pose);
+    if (!aimed) throw CLI::ValidationError(name + " " + text, std::string(aimed.error().text()));
+    request.aimed.push_back(*aimed);
   }
   if (pose && request.aimed.empty() && verb.count("--robot") == 0)
     throw CLI::ValidationError("--pose", "needs --slash, --sever, --puncture or --robot");

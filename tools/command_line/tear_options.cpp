@@ -152,6 +152,8 @@ CLI::App* add_tear(CLI::App& app, TearRequest& request) {
                    "File for a picture (PNG) of the torn model, with lips and pieces pulled apart")
       ->type_name("FILE");
   add_further_files(*verb, request);
+  verb->add_flag("--keep-going", request.keep_going,
+                 "Report operations that cannot be applied, leave them out and go on");
   verb->add_flag("--dry-run", request.dry_run,
                  "Apply and describe the operations, but write no files");
   verb->add_flag("--force", request.force, "Outputs may overwrite the model or the log");

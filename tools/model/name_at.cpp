@@ -18,4 +18,17 @@ std::optional<double> number_in(std::string_view text) {
   return number;
 }
 
+std::optional<Vec3d> direction_in(std::string_view text) {
+  Vec3d direction = Vec3d::Zero();
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::size_t end = axis < 2 ? text.find('/') : text.size();
+    if (end == std::string_view::npos) return {};
+    const std::optional<double> number = number_in(text.substr(0, end));
+    if (!number) return {};
+    direction[axis] = *number;
+    text.remove_prefix(axis < 2 ? end + 1 : end);
+  }
+  return direction;
+}
+
 }  // namespace sunder::tools

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <sunder/core/math.h>
+
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,5 +17,8 @@ struct NameAt {
 
 /// The finite number that a whole text is; empty for other texts.
 [[nodiscard]] std::optional<double> number_in(std::string_view text);
+
+/// "0/0/1": three finite numbers; empty for other texts.
+[[nodiscard]] std::optional<Vec3d> direction_in(std::string_view text);
 
 }  // namespace sunder::tools

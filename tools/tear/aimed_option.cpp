@@ -50,15 +50,9 @@ Json value_json(const std::string& key, const std::string& text) {
   if (text.ends_with('w'))
     if (const auto widths = number_in(std::string_view(text).substr(0, text.size() - 1)))
       return {{"widths", *widths}};
-  const std::vector<std::string> parts = split(text, '/');
-  if (parts.size() != 3) return text;
-  Json direction = Json::array();
-  for (const std::string& part : parts) {
-    const auto number = number_in(part);
-    if (!number) return text;
-    direction.push_back(*number);
-  }
-  return direction;
+  if (const auto direction = direction_in(text))
+    return Json::array({direction->x(), direction->y(), direction->z()});
+  return text;
 }
 
 /// "0.4" or "40%".
@@ -109,17 +103,44 @@ Status add_field(const std::string& field, Json& operation) {
   return {};
 }
 
+/// Takes `detach` and `parts`, which say what the command does after the cut, out of the operation
+/// of the log.
+Status read_detaching(Json& operation, TearRequest::Aimed& aimed) {
+  if (const auto detach = operation.find("detach"); detach != operation.end()) {
+    if (!detach->is_boolean())
+      return Status::failure(StatusCode::malformed_file, kNone,
+                             "detach: expected no value, true or false");
+    aimed.detaches = detach->get<bool>();
+    operation.erase(detach);
+  }
+  if (const auto parts = operation.find("parts"); parts != operation.end()) {
+    if (*parts != "all" && *parts != "none")
+      return Status::failure(StatusCode::malformed_file, kNone,
+                             "parts: expected all or none: the separate parts that come off with "
+                             "the limb");
+    aimed.takes_props = *parts == "all";
+    operation.erase(parts);
+  }
+  return {};
+}
+
 }  // namespace
 
-Result<AimedOperation> parse_aimed_option(const std::string& kind, const std::string& text,
-                                          const std::optional<std::string>& pose) {
+Result<TearRequest::Aimed> parse_aimed_option(const std::string& kind, const std::string& text,
+                                              const std::optional<std::string>& pose) {
+  TearRequest::Aimed aimed;
+  aimed.option = "--" + kind + " " + text;
   const std::vector<std::string> fields = split(text, ',');
   const auto [bone, share] = name_and_number(fields.front(), share_in);
   Json operation = {{"op", kind}};
   operation[kind == "sever" ? "bone" : "around"] = bone;
   if (share) operation["at"] = *share;
+  aimed.has_share = share.has_value();
   for (std::size_t i = 1; i < fields.size(); ++i)
     if (const Status status = add_field(fields[i], operation); !status) return status;
+  aimed.has_share |= operation.contains("at");
+  if (kind == "sever")
+    if (const Status status = read_detaching(operation, aimed); !status) return status;
   if (pose) {
     Result<Json> posed = pose_json(*pose);
     if (!posed) return posed.error();
@@ -127,7 +148,10 @@ Result<AimedOperation> parse_aimed_option(const std::string& kind, const std::st
   }
   const Json log = {{"sunder_operations", 1}, {"operations", Json::array({operation})}};
   auto parsed = parse_aimed_operations(dump_line(log));
-  if (parsed) return std::get<AimedOperation>(std::move(parsed->front()));
+  if (parsed) {
+    aimed.operation = std::get<AimedOperation>(std::move(parsed->front()));
+    return aimed;
+  }
   // The place in the log says nothing to whom has written none.
   std::string_view fault = parsed.error().text();
   constexpr std::string_view kPlace = "/operations/0";

@@ -184,7 +184,7 @@ Result<std::vector<WantedOperation>> wanted_operations(const TearRequest& reques
                         request.operations.string()});
   }
   for (const TearRequest::Aimed& aimed : request.aimed)
-    wanted.push_back({aimed.operation, aimed.option, {}});
+    wanted.push_back({aimed.operation, aimed.option, {}, aimed});
   return wanted;
 }
 

@@ -74,7 +74,8 @@ ExitCode write_pieces(TearRun& run) {
       run.pieces->write(*request.pieces, run.loaded, request.save, kept, run.piece_files);
   if (code == ExitCode::ok && run.piece_files.empty())
     run.messages.warn(
-        "--pieces: no piece was written; only {\"op\": \"detach\"} of --ops takes one off");
+        "--pieces: no piece was written; --sever takes off what it severs, and so does {\"op\": "
+        "\"detach\"} of --ops");
   return code;
 }
 

@@ -1,6 +1,5 @@
 #include "tools/tear/tear_play.h"
 
-#include <sunder/aim/aim.h>
 #include <sunder/skinning/pose.h>
 
 #include <algorithm>
@@ -8,11 +7,10 @@
 #include <utility>
 #include <variant>
 
-#include "tools/model/find_clip.h"
 #include "tools/model/history.h"
-#include "tools/model/named_poses.h"
 #include "tools/tear/miss.h"
 #include "tools/tear/operation_line.h"
+#include "tools/tear/plain_tears.h"
 #include "tools/tear/stroke_warnings.h"
 #include "tools/value_of.h"
 
@@ -132,36 +130,21 @@ Status play_one(const Operation& operation, const std::string& place, bool is_me
   return status;
 }
 
-template <class Aimed>
-auto& pose_of(Aimed& operation) {
-  return std::visit(
-      [](auto& of) -> auto& { return of.pose; }, operation);
-}
-
-/// An operation of the command line, whose clip may be named without its namespace.
-AimedOperation with_clip(AimedOperation operation, const Character& source) {
-  auto* const of_clip = std::get_if<ClipPose>(&pose_of(operation));
-  const auto* const name = of_clip ? std::get_if<std::string>(&of_clip->clip) : nullptr;
-  const auto clip = name ? find_clip(source, *name) : std::nullopt;
-  if (clip) of_clip->clip = *clip;
-  return operation;
-}
-
-/// As it is meant: of an aimed operation of the command line, with its clip.
-LoggedOperation meant(const WantedOperation& wanted, const Character& source) {
-  const auto* const aimed = std::get_if<AimedOperation>(&wanted.operation);
-  return aimed != nullptr && wanted.file.empty() ? with_clip(*aimed, source) : wanted.operation;
-}
-
-/// The plain operation for the model as it is now.
-Result<Operation> plain_operation(const LoggedOperation& operation, const TornModel& model) {
-  if (const auto* const plain = std::get_if<Operation>(&operation)) return *plain;
-  return resolve(model, std::get<AimedOperation>(operation));
-}
-
-/// Names like one that an operation names in vain.
-std::string advice_on(const LoggedOperation& operation, const Character& source) {
-  return std::visit([&](const auto& of) { return advice_on_names(of, source); }, operation);
+/// Applies a wanted operation, and takes off what it severs.
+Status play_wanted(const WantedOperation& wanted, bool is_measured, TopologyCounts& current,
+                   TearRun& run) {
+  const Result<PlainTears> tears = plain_tears(wanted, run);
+  if (!tears) return tears.error();
+  for (const std::string& note : tears->notes) run.messages.say(wanted.place + ": " + note);
+  const std::size_t missed = run.totals.missed;
+  if (const Status status = play_one(tears->operation, wanted.place, is_measured, current, run);
+      !status)
+    return status;
+  if (run.totals.missed > missed) return {};
+  for (const Operation& detachment : tears->detachments)
+    if (const Status status = play_one(detachment, wanted.place, false, current, run); !status)
+      return status;
+  return {};
 }
 
 }  // namespace
@@ -177,12 +160,13 @@ ExitCode play_operations(const std::vector<WantedOperation>& operations, TearRun
         wanted.file.empty() ? wanted.place : wanted.file + ": " + wanted.place;
     run.budget.begin(place);
     const bool is_measured = run.request.weight_errors && i % step == 0;
-    const LoggedOperation operation = meant(wanted, run.model.source());
-    const Result<Operation> plain = plain_operation(operation, run.model);
-    const Status status =
-        plain ? play_one(*plain, wanted.place, is_measured, current, run) : plain.error();
-    if (!status)
-      return complain(place, status, ExitCode::usage, advice_on(operation, run.model.source()));
+    const Status status = play_wanted(wanted, is_measured, current, run);
+    if (status) continue;
+    const ExitCode code =
+        complain(place, status, ExitCode::usage, advice_on(wanted, run.model.source()));
+    if (!run.request.keep_going || code != ExitCode::usage) return code;
+    ++run.totals.refused;
+    run.has_findings = true;
   }
   run.budget.begin(run.request.model.string());
   progress.begin_step(operations.size() + 1, "weighing");

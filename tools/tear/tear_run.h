@@ -27,6 +27,7 @@ struct Weighing {
 /// Sums over the operations of a run, for its summary.
 struct RunTotals {
   std::size_t done = 0, missed = 0, pieces = 0;
+  std::size_t refused = 0;  ///< With --keep-going.
   std::uint64_t faces_crossed = 0, blocked = 0;
 };
 

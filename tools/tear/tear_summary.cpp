@@ -19,6 +19,7 @@ std::string operations_line(const TearRun& run) {
   const RunTotals& totals = run.totals;
   std::string line = printed("operations  %zu done", totals.done);
   if (totals.missed > 0) line += printed(", %zu missed", totals.missed);
+  if (totals.refused > 0) line += printed(", %zu left out", totals.refused);
   if (totals.blocked > 0)
     line += printed(", %llu places blocked", static_cast<unsigned long long>(totals.blocked));
   return line;

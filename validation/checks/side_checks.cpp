@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/internal/bone_sides.h"
 #include "core/internal/or_throw.h"
 #include "core/internal/ordered.h"
 #include "validation/checks/inherited.h"

@@ -38,11 +38,4 @@ struct BoneMatch {
 [[nodiscard]] Result<BoneMatch> match_bones(const Skeleton& source, const Skeleton& target,
                                             std::span<const BoneNames> mapping = {});
 
-/// The side that a name tells: -1 left, +1 right, 0 neither. "Arm.L", "arm_l", "LeftArm", "lArm".
-[[nodiscard]] int side_of_name(const std::string& name);
-
-/// Per bone: the bone whose name differs in its side alone; kNone: there is none, or it is
-/// ambiguous.
-[[nodiscard]] std::vector<Index> mirrored_bones(const Skeleton& skeleton);
-
 }  // namespace sunder::validation

@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "core/internal/bone_sides.h"
 #include "core/internal/or_throw.h"
 #include "core/internal/ordered.h"
 #include "validation/match/bone_match.h"

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "core/internal/bone_sides.h"
 #include "core/internal/out_of_memory.h"
 #include "validation/match/skin_difference.h"
 #include "validation/transfer/finish_rows.h"

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <string_view>
+#include <vector>
 
 namespace sunder {
 
@@ -19,6 +20,48 @@ namespace sunder {
 ///         memory. O(size of the model), allocates. Reentrant.
 [[nodiscard]] SUNDER_API Result<Operation> resolve(const TornModel& model,
                                                    const AimedOperation& operation);
+
+/// The same operation at the nearest share of its bone at which it can be resolved: its own, or one
+/// of twenty beside it. A sever must take off most of the whole limb, not only of what lies beyond
+/// the cut.
+/// @return the failure at its own share if there is no such share. Takes up to 21 times as long as
+///         resolve().
+[[nodiscard]] SUNDER_API Result<AimedOperation> at_nearest_share(const TornModel& model,
+                                                                 const AimedOperation& operation);
+
+/// The way a character faces at rest, level, unit length.
+struct Facing {
+  Vec3d direction = Vec3d(0.0, 0.0, 1.0);
+  bool is_certain = false;
+};
+
+/// Tells the front from the bones whose names differ in left and right. Certain if at least two
+/// pairs agree about the side and the feet do not point to the back; without pairs it is +z, as a
+/// glTF file has it.
+/// @return the failures of rest_pose().
+[[nodiscard]] SUNDER_API Result<Facing> find_facing(const Character& character);
+
+/// The operation with its side, or the one from which it is seen without any, as a direction in
+/// model space for a character that faces `front`.
+/// @param front  level, unit length.
+/// @return not_found and invalid_argument as resolve() for the bone and the pose.
+[[nodiscard]] SUNDER_API Result<AimedOperation> seen_by(const TornModel& model,
+                                                        const AimedOperation& operation,
+                                                        const Vec3d& front);
+
+/// What a sever takes off, in the model before it.
+struct SeveredPieces {
+  std::vector<PiecePlace> severed;  ///< On each connected piece beyond the cut.
+  /// On each separate part that mostly moves with the limb: hats, beards, eyes, axes.
+  std::vector<PiecePlace> props;
+};
+
+/// Finds what comes off when the sever is resolved and applied, for detach(): the places are on the
+/// pieces also after the cut. Near the joint of the bone all props go along; further out those that
+/// lie beyond the cut or move with the bones below.
+/// @return as resolve().
+[[nodiscard]] SUNDER_API Result<SeveredPieces> severed_pieces(const TornModel& model,
+                                                              const SeverOperation& sever);
 
 /// The bone with a name or, if there is none, the only one with that name behind a namespace or
 /// prefix that ends with ':' or '|'.

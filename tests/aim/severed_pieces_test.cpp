@@ -1,0 +1,252 @@
+// What a sever takes off, judged by the weights of what is left: hands with shields and clubs.
+#include <sunder/aim/aim.h>
+#include <sunder/skinning/pose.h>
+#include <sunder/tear/detached_piece.h>
+#include <sunder/tear/torn_model.h>
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/models/make_model.h"
+#include "support/models/rigs.h"
+#include "support/oracles/torn_invariants.h"
+
+namespace sunder {
+namespace {
+
+using test::make_model;
+using testing::IsEmpty;
+
+constexpr std::uint32_t kHand = 2;  // bone and slot
+
+/// Adds a copy of a mesh, scaled and moved, that follows one slot alone.
+void add_prop(Character& character, const Mesh& shape, const std::string& name, const Vec3f& scale,
+              const Vec3f& move, std::uint32_t slot) {
+  Mesh mesh = shape;
+  mesh.name = name;
+  mesh.first_morph_weight = static_cast<std::uint32_t>(character.rest_morph_weights.size());
+  character.rest_morph_weights.push_back(0.0f);
+  for (Vec3f& position : mesh.positions) position = position.cwiseProduct(scale) + move;
+  const std::uint32_t count = mesh.vertex_count();
+  mesh.weights = SkinWeights();
+  const Influence whole{slot, 1.0f};
+  for (std::uint32_t vertex = 0; vertex < count; ++vertex) mesh.weights.append({&whole, 1});
+  character.meshes.push_back(std::move(mesh));
+}
+
+/// An arm along y, a metre wide, from y = 0 to 3; the hand begins at y = 2. The bones lie beside
+/// the surface, inside what the hand holds: a shield that is larger than the hand, or a club of
+/// twenty pieces, from y = 1 to 4.
+Character make_armed_hand(bool is_club) {
+  Character character = test::make_tube(24, 16, 3);
+  for (std::uint32_t i = 0; i < 3; ++i)
+    character.skeleton.bones[i].name = std::array{"UpperArm", "ForeArm", "Hand"}[i];
+  const Mesh tube = character.meshes[0];
+  for (Vec3f& position : character.meshes[0].positions) position.x() -= 1.2f;
+  if (!is_club) {
+    add_prop(character, tube, "shield", {1.2f, 1, 6}, {0, 1, 0}, kHand);
+    return character;
+  }
+  for (int i = 0; i < 20; ++i)
+    add_prop(character, tube, "club" + std::to_string(i), {0.1f, 1, 0.1f},
+             {0.15f * static_cast<float>(i % 5 - 2), 1, 0.15f * static_cast<float>(i / 5 - 2)},
+             kHand);
+  return character;
+}
+
+SeverOperation sever_of(const std::string& bone, double at) {
+  SeverOperation sever;
+  sever.place = {bone, at};
+  return sever;
+}
+
+double weight_of(const Character& character, const Mesh& mesh, std::uint32_t vertex,
+                 std::uint32_t bone) {
+  double sum = 0;
+  for (const Influence& influence : mesh.weights.of(vertex))
+    if (character.skins[mesh.skin].bones[influence.slot] == bone) sum += influence.weight;
+  return sum;
+}
+
+/// Sum of a bone's weights over the corners of the triangles that are left of a mesh.
+double weight_left(const Character& character, std::uint32_t m, std::uint32_t bone) {
+  const Mesh& mesh = character.meshes[m];
+  double sum = 0;
+  for (const Triangle& triangle : mesh.triangles)
+    if (!is_retired(triangle))
+      for (const std::uint32_t vertex : triangle) sum += weight_of(character, mesh, vertex, bone);
+  return sum;
+}
+
+double weight_left(const TornModel& model, std::uint32_t bone) {
+  double sum = 0;
+  for (std::uint32_t m = 0; m < model.character().meshes.size(); ++m)
+    sum += weight_left(model.character(), m, bone);
+  return sum;
+}
+
+/// Severs, takes off all that comes free, and returns how many pieces that were.
+std::size_t sever_and_detach(TornModel& model, const SeverOperation& sever) {
+  const auto plain = resolve(model, sever);
+  const auto pieces = severed_pieces(model, sever);
+  EXPECT_TRUE(plain) << plain.error().text();
+  EXPECT_TRUE(pieces) << pieces.error().text();
+  if (!plain || !pieces) return 0;
+  EXPECT_TRUE(apply_operation(model, *plain));
+  for (const auto* const places : {&pieces->severed, &pieces->props})
+    for (const PiecePlace& place : *places) {
+      const auto report = apply_operation(model, DetachOperation{sever.pose, place});
+      EXPECT_TRUE(report) << report.error().text();
+    }
+  EXPECT_THAT(test::broken_laws(model), IsEmpty());
+  return pieces->severed.size() + pieces->props.size();
+}
+
+TEST(SeveredPieces, a_hand_comes_off_and_what_it_holds_goes_along_whole) {
+  for (const bool is_club : {false, true}) {
+    SCOPED_TRACE(is_club);
+    TornModel model = make_model(make_armed_hand(is_club));
+    const double before = weight_left(model.character(), 0, kHand);
+    EXPECT_EQ(sever_and_detach(model, sever_of("Hand", 0)), is_club ? 21u : 2u);
+    EXPECT_LT(weight_left(model.character(), 0, kHand), 0.5 * before);
+    for (std::uint32_t m = 1; m < model.character().meshes.size(); ++m) {
+      EXPECT_EQ(weight_left(model.character(), m, kHand), 0.0) << m;
+      EXPECT_EQ(model.character().meshes[m].vertex_count(), model.source().meshes[m].vertex_count())
+          << "it is not cut";
+    }
+    EXPECT_GT(weight_left(model, 0), 0.0) << "the upper arm stays";
+  }
+}
+
+TEST(SeveredPieces, what_the_hand_holds_comes_off_with_the_forearm) {
+  for (const double at : {0.0, 0.3, 0.6, 0.9}) {
+    SCOPED_TRACE(at);
+    TornModel model = make_model(make_armed_hand(false));
+    EXPECT_EQ(sever_and_detach(model, sever_of("ForeArm", at)), 2u);
+    EXPECT_EQ(weight_left(model.character(), 1, kHand), 0.0);
+    EXPECT_GT(weight_left(model, 0), 0.0);
+  }
+}
+
+TEST(SeveredPieces, what_lies_before_a_cut_inside_the_last_bone_stays) {
+  Character character = test::make_tube(24, 16, 3);
+  const Mesh tube = character.meshes[0];
+  // The last bone reaches from y = 2 to 3: a ring at its beginning and one at its end.
+  add_prop(character, tube, "low", {1.5f, 0.05f, 1.5f}, {0, 2.1f, 0}, kHand);
+  add_prop(character, tube, "high", {1.5f, 0.05f, 1.5f}, {0, 2.75f, 0}, kHand);
+  for (const double at : {0.0, 0.6}) {
+    SCOPED_TRACE(at);
+    TornModel model = make_model(Character(character));
+    EXPECT_EQ(sever_and_detach(model, sever_of("bone2", at)), at == 0 ? 3u : 2u);
+    EXPECT_EQ(weight_left(model.character(), 1, kHand) > 0, at > 0);
+    EXPECT_EQ(weight_left(model.character(), 2, kHand), 0.0);
+  }
+}
+
+/// The cut-off hand is a part of the body still: it counts as what the forearm held.
+TEST(SeveredPieces, a_limb_is_severed_again_beyond_and_before_an_earlier_cut) {
+  for (const double at : {0.3, 0.8}) {
+    TornModel model = make_model(test::make_tube(24, 16, 3));
+    const auto first = resolve(model, sever_of("bone1", 0.5));
+    ASSERT_TRUE(first);
+    ASSERT_TRUE(apply_operation(model, *first));
+    const auto second = resolve(model, sever_of("bone1", at));
+    ASSERT_TRUE(second) << second.error().text();
+    EXPECT_EQ(apply_operation(model, *second)->pieces.size(), 2u);
+  }
+}
+
+TEST(NearestShare, moves_only_what_cannot_be_hit) {
+  Character character = test::make_tube(24, 16, 3);
+  const Mesh tube = character.meshes[0];
+  Bone other;
+  other.name = "Other";
+  other.rest.translation = Vec3f(3, 0, 0);
+  character.skeleton.bones.push_back(other);
+  character.skins[0].bones.push_back(3);
+  Affine3f bone_from_bind = Affine3f::Identity();
+  bone_from_bind.translation() = Vec3f(-3, 0, 0);
+  character.skins[0].bone_from_bind.push_back(bone_from_bind);
+  add_prop(character, tube, "late", {1, 0.9f, 1}, {3, 0.3f, 0}, 3);  // it begins beyond its joint
+  const TornModel model = make_model(std::move(character));
+  const auto share_of = [&](const SeverOperation& sever) {
+    const auto moved = at_nearest_share(model, sever);
+    EXPECT_TRUE(moved) << moved.error().text();
+    return moved ? std::get<SeverOperation>(*moved).place.at : -1.0;
+  };
+  EXPECT_EQ(share_of(sever_of("bone1", 0)), 0.0);
+  EXPECT_FALSE(resolve(model, sever_of("Other", 0)));
+  const double share = share_of(sever_of("Other", 0));
+  EXPECT_GT(share, 0.05);
+  EXPECT_LE(share, 0.2);
+  EXPECT_TRUE(resolve(model, sever_of("Other", share)));
+  EXPECT_FALSE(at_nearest_share(model, sever_of("nobody", 0)));
+}
+
+/// A figure of two arms and two legs with toes, whose left is on a side and whose front is another.
+Character make_figure(const Vec3f& left, const Vec3f& front) {
+  Character character = test::make_tube(24, 16, 3);
+  const auto add_bone = [&](const char* name, std::uint32_t parent, const Vec3f& place) {
+    Bone bone;
+    bone.name = name;
+    bone.parent = parent;
+    bone.rest.translation = place;
+    character.skeleton.bones.push_back(bone);
+    return static_cast<std::uint32_t>(character.skeleton.bones.size() - 1);
+  };
+  for (const float side : {1.0f, -1.0f}) {
+    const bool is_left = side > 0;
+    add_bone(is_left ? "Arm.L" : "Arm.R", 0, side * left + Vec3f(0, 2, 0));
+    const std::uint32_t leg = add_bone(is_left ? "Leg.L" : "Leg.R", 0, 0.4f * side * left);
+    add_bone(is_left ? "Toe.L" : "Toe.R", leg, Vec3f(0, -1, 0) + 0.3f * front);
+  }
+  return character;
+}
+
+TEST(Facing, is_told_by_the_names_of_sides_and_by_the_toes) {
+  const Vec3f x(1, 0, 0), z(0, 0, 1);
+  const auto expect = [](const Character& character, const Vec3d& direction, bool is_certain) {
+    const auto facing = find_facing(character);
+    ASSERT_TRUE(facing) << facing.error().text();
+    EXPECT_NEAR((facing->direction - direction).norm(), 0, 1e-6);
+    EXPECT_EQ(facing->is_certain, is_certain);
+  };
+  expect(make_figure(x, z), Vec3d(0, 0, 1), true);
+  expect(make_figure(-x, -z), Vec3d(0, 0, -1), true);
+  expect(make_figure(-z, x), Vec3d(1, 0, 0), true);
+  expect(make_figure(x, -z), Vec3d(0, 0, 1), false);  // the toes contradict the names
+  expect(test::make_tube(24, 16, 3), Vec3d(0, 0, 1), false);
+}
+
+TEST(Facing, turns_the_side_from_which_a_limb_is_seen) {
+  const TornModel model = make_model(test::make_tube(24, 16, 3));
+  SlashOperation slash;
+  slash.place = {"bone1", 0.5};
+  const auto stroke_of = [&](const AimedOperation& aimed) {
+    const auto plain = resolve(model, aimed);
+    EXPECT_TRUE(plain) << plain.error().text();
+    return plain ? std::get<TearOperation>(*plain).stroke : Stroke();
+  };
+  const auto seen = [&](std::optional<ViewSide> side, const Vec3d& front) {
+    slash.from = side ? std::optional<View>(*side) : std::nullopt;
+    return stroke_of(*seen_by(model, slash, front));
+  };
+  const auto as_in_file = [&](ViewSide side) {
+    slash.from = side;
+    return stroke_of(slash);
+  };
+  const Vec3d back(0, 0, -1), right(-1, 0, 0);
+  EXPECT_EQ(seen(ViewSide::front, Vec3d(0, 0, 1)), as_in_file(ViewSide::front));
+  EXPECT_EQ(seen(ViewSide::front, back), as_in_file(ViewSide::back));
+  EXPECT_EQ(seen(std::nullopt, back), as_in_file(ViewSide::back));
+  EXPECT_EQ(seen(ViewSide::left, back), as_in_file(ViewSide::right));
+  EXPECT_EQ(seen(ViewSide::front, right), as_in_file(ViewSide::right));
+  EXPECT_EQ(seen(ViewSide::left, right), as_in_file(ViewSide::front));
+}
+
+}  // namespace
+}  // namespace sunder
