@@ -294,6 +294,9 @@ Status write(const std::filesystem::path& file, const Character& character,
              const SaveOptions& options, const SourceDocument* copied) {
   try {
     check_options(options, character.meshes.size());
+    if (!options.materials.empty())
+      refuse(StatusCode::invalid_argument, kNone,
+             "save_glb: materials are appended to those of a source document; this has none");
     if (const Status status = validate_character(character); !status) return status;
     return write_file(file, NewDocument(character, options, copied, nullptr).write());
   } catch (...) {

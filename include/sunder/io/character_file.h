@@ -91,6 +91,17 @@ struct LoadedCharacter {
 /// SaveOptions::maximum_influences that writes all.
 inline constexpr std::uint32_t kAllInfluences = kNone;
 
+/// A material without textures.
+struct AppendedMaterial {
+  std::string name;
+  Vec4f base_colour = Vec4f::Ones();  ///< Linear RGBA, each 0 to 1.
+  float metallic = 0.0f;              ///< 0 to 1.
+  float roughness = 1.0f;             ///< 0 to 1.
+  bool double_sided = false;
+
+  bool operator==(const AppendedMaterial&) const = default;
+};
+
 /// How the influences of the meshes that are written are stored. Meshes that stay as they are in
 /// the source document keep theirs.
 struct SaveOptions {
@@ -101,13 +112,16 @@ struct SaveOptions {
   WeightFormat weights = WeightFormat::float32;
   /// One per mesh of the character, in place of `weights`; empty: `weights` for all.
   std::vector<WeightFormat> weights_of_mesh = {};
+  /// Materials that Submesh::material counts after those of the source document. Only to save what
+  /// was loaded.
+  std::vector<AppendedMaterial> materials = {};
 };
 
 /// Writes `character`, which is `loaded.character` changed by tearing or with other weights, as a
 /// GLB: the source document with new accessors for the meshes that differ and for those that
 /// loading repaired. Appended bones become nodes, and a mesh may take an appended skin; clips that
 /// differ, or are appended, become animations. Morph targets may be appended, as many to all meshes
-/// of a node. All else stays as it was, but for faults, which are repaired or removed (docs/io.md).
+/// of a node. A submesh may name a material of the source or of SaveOptions::materials. All else stays as it was, but for faults, which are repaired or removed (docs/io.md).
 /// If nothing differs and the source is a GLB without faults, the result is the source, byte for
 /// byte. Thread-safe.
 ///
