@@ -6,7 +6,7 @@
 
 #include "bench/weights/weights_output.h"
 #include "bench/weights/weights_picture.h"
-#include "tear/surface/mesh_vertices.h"
+#include "tear/internal/mesh_vertices.h"
 
 namespace sunder::bench {
 namespace {

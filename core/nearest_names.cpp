@@ -38,7 +38,17 @@ bool is_near(std::size_t edits, const std::string& a, const std::string& b) {
   return 3 * edits <= std::max(a.size(), b.size());
 }
 
-/// The words of a name in small letters: "Skeleton_neck_joint_1", "LeftUpLeg", "b_Tail02_013".
+/// Whether a mistyped name may stand for one word of a name.
+bool is_near_a_word(const std::string& key, std::string_view name) {
+  constexpr std::size_t kShortest = 3;  // of shorter words each is near to each
+  return key.size() >= kShortest &&
+         std::ranges::any_of(words_of(name), [&](const std::string& word) {
+           return word.size() >= kShortest && is_near(edit_distance(key, word), key, word);
+         });
+}
+
+}  // namespace
+
 std::vector<std::string> words_of(std::string_view name) {
   std::vector<std::string> words;
   bool is_open = false, was_small = false;
@@ -52,17 +62,6 @@ std::vector<std::string> words_of(std::string_view name) {
   }
   return words;
 }
-
-/// Whether a mistyped name may stand for one word of a name.
-bool is_near_a_word(const std::string& key, std::string_view name) {
-  constexpr std::size_t kShortest = 3;  // of shorter words each is near to each
-  return key.size() >= kShortest &&
-         std::ranges::any_of(words_of(name), [&](const std::string& word) {
-           return word.size() >= kShortest && is_near(edit_distance(key, word), key, word);
-         });
-}
-
-}  // namespace
 
 std::vector<std::string> nearest_names(const std::string& wanted,
                                        std::span<const std::string> names) {

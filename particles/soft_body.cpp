@@ -228,6 +228,11 @@ Status SoftBody::set_tension(Tension tension) {
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "the tension is %g N/m; it must be from 0 to %g",
                            tension.newtons_per_metre, particles::kMostRecordedForce);
+  for (std::size_t i = 0; i < tension.shares.size(); ++i)
+    if (!(tension.shares[i] >= 0 && tension.shares[i] <= 1))
+      return Status::failure(StatusCode::invalid_argument, static_cast<Index>(i),
+                             "the share of the tension at point %zu is %g; it must be from 0 to 1",
+                             i, static_cast<double>(tension.shares[i]));
   state_->outer.tension = std::move(tension);
   state_->outer.is_tension_stale = true;
   return {};

@@ -16,6 +16,7 @@
 #include "tools/messages/exit_code.h"
 #include "tools/messages/messages.h"
 #include "tools/model/model_reading.h"
+#include "tools/open/flesh_option.h"
 #include "tools/render/camera.h"
 #include "tools/tear/refit.h"
 #include "tools/written_weights/certified_weights.h"
@@ -81,6 +82,7 @@ struct TearRequest {
   bool weight_errors = false;                   ///< Measured for the report.
   bool count_topology = false;                  ///< Per operation, for the report.
   OpenLips open = OpenLips::no;
+  FleshOption flesh;            ///< With `open`.
   std::optional<Vec3d> facing;  ///< Of the character, for `aimed`; empty: as the rig tells.
   bool keep_going = false;      ///< Operations that fail are reported and left out.
   bool dry_run = false;         ///< Writes no files.

@@ -8,7 +8,7 @@
 #include "tear/path/imprint_point.h"
 #include "tear/surface/describe_change.h"
 #include "tear/surface/improve.h"
-#include "tear/surface/mesh_vertices.h"
+#include "tear/internal/mesh_vertices.h"
 #include "tear/surface/open.h"
 
 namespace sunder::bench {

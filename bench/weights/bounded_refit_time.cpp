@@ -9,7 +9,7 @@
 #include <numeric>
 
 #include "bench/harness/measure.h"
-#include "tear/surface/mesh_vertices.h"
+#include "tear/internal/mesh_vertices.h"
 #include "tear/weights/refit_bounds.h"
 #include "weights/internal/point_refit.h"
 #include "weights/internal/refit_terms.h"

@@ -6,7 +6,7 @@
 #include <cstdlib>
 
 #include "bench/harness/measure.h"
-#include "tear/surface/mesh_vertices.h"
+#include "tear/internal/mesh_vertices.h"
 #include "weights/internal/bind_position.h"
 
 namespace sunder::bench {

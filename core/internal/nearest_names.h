@@ -16,6 +16,9 @@ namespace sunder {
 [[nodiscard]] SUNDER_API std::vector<std::string> nearest_names(const std::string& wanted,
                                                                 std::span<const std::string> names);
 
+/// The words of a name in small letters: of "LeftUpLeg" and "left_up_leg.001" left, up and leg.
+[[nodiscard]] SUNDER_API std::vector<std::string> words_of(std::string_view name);
+
 /// "'Walk', 'Run' or 'Jump'".
 [[nodiscard]] SUNDER_API std::string listed_names(std::span<const std::string> names);
 

@@ -12,6 +12,7 @@
 #include "io/gltf_patch/clip_patch.h"
 #include "io/gltf_patch/leave_out_unused.h"
 #include "io/gltf_patch/repair_document.h"
+#include "io/gltf_write/lists.h"
 #include "io/gltf_write/mesh_writer.h"
 #include "io/gltf_write/rig_writer.h"
 
@@ -94,7 +95,17 @@ void check_channels_of_appended(const Character& character, const Character& bef
   }
 }
 
-void check_same_character(const Character& character, const LoadedCharacter& loaded) {
+void check_materials(const Character& character, std::size_t of_source, std::size_t appended) {
+  for (std::uint32_t i = 0; i < character.meshes.size(); ++i)
+    for (const Submesh& submesh : character.meshes[i].submeshes)
+      if (submesh.material != kNone && submesh.material >= of_source + appended)
+        refuse(StatusCode::index_out_of_range, i,
+               "save_glb: mesh %u: material %u does not exist; the source has %zu", i,
+               submesh.material, of_source);
+}
+
+void check_same_character(const Character& character, const LoadedCharacter& loaded,
+                          const SaveOptions& options) {
   if (loaded.character == nullptr || loaded.source == nullptr)
     refuse(StatusCode::invalid_argument, kNone,
            "save_glb: `loaded` has no character or no source document");
@@ -114,18 +125,13 @@ void check_same_character(const Character& character, const LoadedCharacter& loa
     refuse(StatusCode::invalid_argument, kNone,
            "save_glb: the character has %zu clips, the source has %zu", character.clips.size(),
            source.clips.size());
-  const std::size_t material_count = count_of(loaded.source->json, "materials");
   for (std::uint32_t i = 0; i < character.meshes.size(); ++i) {
     const Mesh &mesh = character.meshes[i], &before = source.meshes[i];
     if (mesh.skin != before.skin && mesh.skin < source.skins.size())
       refuse(StatusCode::invalid_argument, i,
              "save_glb: mesh %u: its skin differs from the source's", i);
-    for (const Submesh& submesh : mesh.submeshes)
-      if (submesh.material != kNone && submesh.material >= material_count)
-        refuse(StatusCode::index_out_of_range, i,
-               "save_glb: mesh %u: material %u does not exist; the source has %zu", i,
-               submesh.material, material_count);
   }
+  check_materials(character, count_of(loaded.source->json, "materials"), options.materials.size());
   if (const Status status = validate_character(character); !status) throw Refusal{status};
   check_skins_of_nodes(character, source, *loaded.source);
   check_morph_targets(character, source, *loaded.source);
@@ -175,6 +181,7 @@ class Patch {
   }
 
   void apply(const std::vector<std::uint32_t>& meshes) {
+    append_materials();
     nodes_of_mesh_ = uses_of_meshes(draft_.json);
     std::map<std::uint32_t, std::vector<std::uint32_t>> meshes_of_node;
     for (const std::uint32_t mesh : meshes)
@@ -186,6 +193,29 @@ class Patch {
   }
 
  private:
+  /// The materials of the options, if a submesh names one of them.
+  void append_materials() {
+    const std::size_t of_source = count_of(draft_.json, "materials");
+    const auto is_appended = [&](const Submesh& submesh) {
+      return submesh.material != kNone && submesh.material >= of_source;
+    };
+    const bool is_any_named = std::ranges::any_of(character_.meshes, [&](const Mesh& mesh) {
+      return std::ranges::any_of(mesh.submeshes, is_appended);
+    });
+    if (!is_any_named) return;
+    for (const AppendedMaterial& of : options_.materials) {
+      Json material = {
+          {"pbrMetallicRoughness",
+           {{"baseColorFactor", numbers_of({of.base_colour.data(), 4})},
+            {"metallicFactor", static_cast<double>(of.metallic)},
+            {"roughnessFactor", static_cast<double>(of.roughness)}}}};
+      if (!of.name.empty()) material["name"] = of.name;
+      if (of.double_sided) material["doubleSided"] = true;
+      if (of.base_colour.w() < 1) material["alphaMode"] = "BLEND";
+      append(draft_.json, "materials", std::move(material));
+    }
+  }
+
   void correct_skins() {
     for (const SourceDocument::RepairedSkin& repaired : source_.repaired_skins)
       draft_.json["skins"][repaired.gltf_skin]["inverseBindMatrices"] =
@@ -369,7 +399,7 @@ WrittenInfluences written_of(const Mesh& mesh, std::uint32_t index, std::uint32_
 std::vector<std::byte> glb_of(const Character& character, const LoadedCharacter& loaded,
                               const SaveOptions& options) {
   check_options(options, character.meshes.size());
-  check_same_character(character, loaded);
+  check_same_character(character, loaded, options);
   const SourceDocument& source = *loaded.source;
   GlbDraft draft(source);
   const Json before = draft.json;
@@ -390,7 +420,7 @@ Result<std::vector<WrittenInfluences>> influences_of_written(const Character& ch
                                                              const SaveOptions& options) {
   return without_exceptions<std::vector<WrittenInfluences>>([&] {
     check_options(options, character.meshes.size());
-    check_same_character(character, loaded);
+    check_same_character(character, loaded, options);
     const std::vector<bool> changed = changed_meshes(character, loaded);
     const std::uint32_t most_of_source = most_influences(*loaded.character);
     std::vector<WrittenInfluences> written;

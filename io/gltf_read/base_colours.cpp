@@ -93,6 +93,10 @@ class Reader {
   BaseColour read(const Json& material) {
     BaseColour colour;
     const Json& surface = member(material, "pbrMetallicRoughness");
+    if (const Json& name = member(material, "name"); name.is_string())
+      colour.name = name.get<std::string>();
+    if (!member(surface, "metallicRoughnessTexture").is_object())
+      colour.metallic = share_or(member(surface, "metallicFactor"), 0.0f);
     if (const Json& factor = member(surface, "baseColorFactor");
         factor.is_array() && factor.size() == 4)
       for (int i = 0; i < 4; ++i)

@@ -23,6 +23,16 @@ constexpr ComponentType component_type() {
     return ComponentType::u32;
 }
 
+void check_material(const AppendedMaterial& material, Index index) {
+  const Vec4f& colour = material.base_colour;
+  for (const float share :
+       {colour.x(), colour.y(), colour.z(), colour.w(), material.metallic, material.roughness})
+    if (!(share >= 0 && share <= 1))
+      refuse(StatusCode::invalid_argument, index,
+             "save_glb: appended material %u '%.60s': %g is not in [0, 1]", index,
+             material.name.c_str(), static_cast<double>(share));
+}
+
 std::string numbered(const char* name, std::size_t index) { return name + std::to_string(index); }
 
 }  // namespace
@@ -43,6 +53,7 @@ void check_options(const SaveOptions& options, std::size_t mesh_count) {
            "save_glb: weight formats of %zu meshes, the character has %zu",
            options.weights_of_mesh.size(), mesh_count);
   for (const WeightFormat format : options.weights_of_mesh) check_format(format);
+  for (Index i = 0; i < options.materials.size(); ++i) check_material(options.materials[i], i);
 }
 
 InfluenceForm influence_form(const SaveOptions& options, std::uint32_t mesh,

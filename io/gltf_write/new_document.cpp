@@ -298,6 +298,9 @@ void check_character(const Character& character) {
 std::vector<std::byte> new_document(const Character& character, const SaveOptions& options,
                                     const SourceDocument* materials) {
   check_options(options, character.meshes.size());
+  if (!options.materials.empty())
+    refuse(StatusCode::invalid_argument, kNone,
+           "save_glb: materials are appended to those of a source document; this has none");
   check_character(character);
   return NewDocument(character, options, materials, nullptr).write();
 }

@@ -10,10 +10,14 @@
 
 namespace sunder {
 
-/// How a material colours a surface without light, for viewers.
+/// How a material colours a surface without light, for viewers, and what it is made of.
 struct BaseColour {
   enum class Wrap : std::uint8_t { repeat, clamp, mirror };
 
+  std::string name;
+  /// The metallic factor, where the file gives one and no texture varies it; 0 otherwise, although
+  /// glTF's default is 1: many files leave it out.
+  float metallic = 0;
   Vec4f factor = Vec4f::Ones();  ///< Linear RGBA.
   std::uint32_t image = kNone;   ///< In BaseColours::images; multiplied by `factor`.
   std::uint32_t uv_set = 0;      ///< Texture coordinates of the images.

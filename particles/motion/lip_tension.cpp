@@ -1,5 +1,7 @@
 #include "particles/motion/lip_tension.h"
 
+#include <algorithm>
+
 #include "core/internal/ordered.h"
 
 namespace sunder::particles {
@@ -8,14 +10,24 @@ namespace {
 /// A shorter direction counts as none.
 constexpr double kLeastDirection = 1e-12;
 
+/// Newtons per metre at a lip edge.
+double tension_at(const LipEdge& lip, const Tension& tension) {
+  double share = 1;
+  for (const Index point : lip.points)
+    if (point < tension.shares.size())
+      share = std::min(share, static_cast<double>(tension.shares[point]));
+  return share * tension.newtons_per_metre;
+}
+
 Vec3d pull_of(const LipEdge& lip, std::span<const Vec3f> positions, const Tension& tension) {
   const Vec3d inward = lip.inward.cast<double>();
-  if (!tension.direction) return tension.newtons_per_metre * inward;
+  const double newtons_per_metre = tension_at(lip, tension);
+  if (!tension.direction) return newtons_per_metre * inward;
   const Vec3d middle = 0.5 * (positions[lip.points[0]] + positions[lip.points[1]]).cast<double>();
   const Vec3d direction = tension.direction(middle);
   const double length = norm(direction);
   if (!(length > kLeastDirection) || !direction.allFinite()) return Vec3d::Zero();
-  return tension.newtons_per_metre / (length * length) * dot(direction, inward) * direction;
+  return newtons_per_metre / (length * length) * dot(direction, inward) * direction;
 }
 
 /// The pull with what the pose adds, without the part that would push the lip into the opening.

@@ -9,7 +9,7 @@
 #include "tear/geometry/tolerances.h"
 #include "tear/internal/surface.h"
 #include "tear/surface/append_filling.h"
-#include "tear/surface/mesh_vertices.h"
+#include "tear/internal/mesh_vertices.h"
 
 namespace sunder::tear {
 namespace {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "tear/internal/surface.h"
-#include "tear/surface/mesh_vertices.h"
+#include "tear/internal/mesh_vertices.h"
 
 namespace sunder::tear {
 

@@ -7,7 +7,7 @@
 #include "tear/geometry/face_shape.h"
 #include "tear/geometry/tolerances.h"
 #include "tear/internal/surface.h"
-#include "tear/surface/mesh_vertices.h"
+#include "tear/internal/mesh_vertices.h"
 
 namespace sunder::tear {
 namespace {

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "tear/surface/face_split.h"
-#include "tear/surface/mesh_vertices.h"
+#include "tear/internal/mesh_vertices.h"
 
 namespace sunder::tear {
 

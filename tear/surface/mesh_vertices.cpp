@@ -1,4 +1,4 @@
-#include "tear/surface/mesh_vertices.h"
+#include "tear/internal/mesh_vertices.h"
 
 #include <algorithm>
 #include <cmath>

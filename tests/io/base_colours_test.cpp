@@ -84,6 +84,20 @@ TEST_F(BaseColoursTest, are_those_of_the_file) {
   EXPECT_EQ(colours.materials[1].wrap_u, BaseColour::Wrap::repeat);
 }
 
+TEST_F(BaseColoursTest, are_metal_where_the_file_says_so_and_no_texture_varies_it) {
+  Json& materials = builder_.json["materials"];
+  materials[0]["name"] = "Steel";
+  materials[0]["pbrMetallicRoughness"]["metallicFactor"] = 0.75;
+  materials[1]["pbrMetallicRoughness"]["metallicFactor"] = 0.75;
+  materials[1]["pbrMetallicRoughness"]["metallicRoughnessTexture"] = {{"index", 0}};
+  const BaseColours colours = read();
+  EXPECT_EQ(colours.materials[0].name, "Steel");
+  EXPECT_EQ(colours.materials[0].metallic, 0.75f);
+  EXPECT_EQ(colours.materials[1].metallic, 0.0f);
+  EXPECT_EQ(colours.materials[2].metallic, 0.0f) << "left out";
+  EXPECT_EQ(colours.materials[2].name, "");
+}
+
 TEST_F(BaseColoursTest, have_each_image_once_and_none_from_outside_the_folder) {
   const BaseColours colours = read();
   ASSERT_EQ(colours.images.size(), 2u);

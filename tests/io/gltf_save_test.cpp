@@ -361,6 +361,52 @@ TEST(SaveGlb, refuses_a_material_that_the_source_does_not_have) {
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
+TEST(SaveGlb, appends_materials_that_a_submesh_names_and_keeps_those_of_the_source) {
+  const LoadedCharacter loaded = loaded_strip();
+  const Json before = skinned_strip().json["materials"];
+  SaveOptions options;
+  options.materials = {{"Flesh", {0.5f, 0.125f, 0.0625f, 1.0f}, 0.0f, 0.25f, true}};
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "torn.glb";
+  ASSERT_TRUE(save_glb(file, *loaded.character, loaded, options));
+  EXPECT_EQ(json_of(read_bytes(file))["materials"], before) << "nothing names it";
+
+  Character torn = *loaded.character;
+  add_cap(torn.meshes[0], {"Flesh", static_cast<Index>(before.size())});
+  ASSERT_TRUE(save_glb(file, torn, loaded, options));
+  Json materials = json_of(read_bytes(file))["materials"];
+  ASSERT_EQ(materials.size(), before.size() + 1);
+  EXPECT_EQ(materials.back(), Json({{"name", "Flesh"},
+                                    {"doubleSided", true},
+                                    {"pbrMetallicRoughness",
+                                     {{"baseColorFactor", {0.5, 0.125, 0.0625, 1.0}},
+                                      {"metallicFactor", 0.0},
+                                      {"roughnessFactor", 0.25}}}}));
+  materials.erase(materials.size() - 1);
+  EXPECT_EQ(materials, before);
+  const auto again = load_character(file);
+  ASSERT_TRUE(again.has_value());
+  EXPECT_EQ(again->character->meshes[0].submeshes.back(), torn.meshes[0].submeshes.back());
+  if (has_gltf_validator()) {
+    EXPECT_EQ(validate_glb(file).errors, 0);
+  }
+}
+
+TEST(SaveGlb, refuses_appended_materials_that_glTF_cannot_hold) {
+  const LoadedCharacter loaded = loaded_strip();
+  const TemporaryFolder folder;
+  SaveOptions options;
+  options.materials = {{}, {"Flesh", {0.5f, 1.5f, 0.0f, 1.0f}}};
+  const Status status = save_glb(folder.path() / "torn.glb", *loaded.character, loaded, options);
+  EXPECT_EQ(status.code(), StatusCode::invalid_argument);
+  EXPECT_EQ(status.index(), 1u);
+  options.materials.pop_back();
+  EXPECT_EQ(save_glb(folder.path() / "new.glb", *loaded.character, options).code(),
+            StatusCode::invalid_argument)
+      << "there is no source to append to";
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
 TEST(SaveGlb, an_instance_is_torn_alone) {
   GltfBuilder builder = skinned_strip();
   builder.json["nodes"].push_back({{"name", "twin"}, {"mesh", 0}, {"skin", 0}});

@@ -52,5 +52,24 @@ TEST(lip_tension, along_a_direction_pulls_only_lips_across_it) {
     EXPECT_EQ(force, Vec3d::Zero());
 }
 
+/// The middle of the slit belongs to one wound and has a share; the ends are tips of others too.
+TEST(lip_tension, a_share_lowers_the_pull_of_the_edges_at_its_point) {
+  const auto whole = Slit().forces({3.0, {}});
+  Tension half{3.0, {}};
+  half.shares = {1, 0.5f, 1, 1, 0.5f};  // The last point is beyond the end.
+  const auto halved = Slit().forces(half);
+  for (std::size_t i = 0; i < whole.size(); ++i) EXPECT_EQ(halved[i], 0.5 * whole[i]) << i;
+  half.shares = {0, 1, 1, 0, 1, 1};  // Only the edges at the other ends pull.
+  EXPECT_EQ(Slit().forces(half)[0], Vec3d(0, 1.5, 0));
+  EXPECT_EQ(Slit().forces(half)[1], whole[1]);
+}
+
+TEST(lip_tension, shares_of_one_change_no_bit) {
+  Tension whole{3.0, [](const Vec3d&) { return Vec3d(0.3, 0.7, 0); }};
+  Tension shared = whole;
+  shared.shares.assign(6, 1.0f);
+  EXPECT_EQ(Slit().forces(whole), Slit().forces(shared));
+}
+
 }  // namespace
 }  // namespace sunder

@@ -580,6 +580,9 @@ TEST(soft_body, invalid_input_is_named_and_changes_nothing) {
   expect(body.set_force(0, huge), StatusCode::invalid_argument, kNone, "force");
   expect(body.set_gravity(huge), StatusCode::invalid_argument, kNone, "gravity");
   expect(body.set_tension({1e13, {}}), StatusCode::invalid_argument, kNone, "tension");
+  for (const float share : {-0.1f, 1.1f, std::numeric_limits<float>::quiet_NaN()})
+    expect(body.set_tension({1.0, {}, false, {0.5f, share}}), StatusCode::invalid_argument, 1,
+           "share");
   expect(body.hold(0, huge).error(), StatusCode::invalid_argument, kNone, "target");
   expect(body.move_hold(*hold, huge), StatusCode::invalid_argument, kNone, "target");
   expect(body.set_material(count, 0), StatusCode::index_out_of_range, count, "particle");

@@ -25,7 +25,7 @@
 #include "tear/posed/hilbert_curve.h"
 #include "tear/sheet/gap.h"
 #include "tear/sheet/open_sheet.h"
-#include "tear/surface/mesh_vertices.h"
+#include "tear/internal/mesh_vertices.h"
 
 namespace sunder::tear {
 namespace {

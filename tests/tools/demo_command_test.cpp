@@ -1,5 +1,7 @@
 // `sunder demo` from the outside.
 
+#include <tuple>
+
 #include "tools/command_fixture.h"
 #include "tools/picture_pixels.h"
 
@@ -36,6 +38,31 @@ TEST_F(DemoCommand, demo_writes_everything_but_pictures_if_none_are_wanted) {
   of_demo.erase("digest");  // the file has the meshes in another order
   of_file.erase("digest");
   EXPECT_EQ(of_demo, of_file);
+}
+
+/// The trunk is by far the larger surface; the demo tears it only if the pot is no better.
+TEST_F(DemoCommand, demo_tears_skin_and_no_cloth) {
+  for (const auto& [of_trunk, of_pot, wanted] :
+       {std::tuple{"Coat", "Skin", "Skin"}, std::tuple{"Coat", "Other", "Other"},
+        std::tuple{"Coat", "Hat", "Coat"}, std::tuple{"Other", "Hat", "Other"}}) {
+    Character character = tools::make_cactus();
+    character.meshes[0].name = of_trunk;
+    character.meshes[1].name = of_pot;
+    for (Mesh& mesh : character.meshes)
+      for (Submesh& submesh : mesh.submeshes) submesh.name = mesh.name;
+    ASSERT_TRUE(save_glb(path("dressed.glb"), character));
+    const std::string folder = path("dressed");
+    ASSERT_EQ(run_sunder({"demo", path("dressed.glb"), "-o", folder, "--no-pictures"}).exit_code,
+              0);
+    const auto torn = load_character(folder + "/torn.glb"),
+               whole = load_character(path("dressed.glb"));
+    ASSERT_TRUE(torn && whole);
+    for (Index m = 0; m < 2; ++m) {
+      const Mesh &after = torn->character->meshes[m], &before = whole->character->meshes[m];
+      EXPECT_EQ(after.triangle_count() > before.triangle_count(), after.name == wanted)
+          << after.name << " of " << of_trunk << " and " << of_pot;
+    }
+  }
 }
 
 TEST_F(DemoCommand, the_model_is_not_overwritten) {

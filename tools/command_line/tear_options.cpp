@@ -111,6 +111,18 @@ void add_open(CLI::App& verb, TearRequest& request) {
     const bool is_known = value == "morph" || value == "baked" || value == "true";
     return is_known ? std::string() : "expected --open, --open=morph or --open=baked";
   });
+  verb.add_option_function<std::string>(
+          "--flesh",
+          [&request](const std::string& text) {
+            const Result<FleshOption> flesh = parse_flesh(text);
+            if (!flesh) throw CLI::ValidationError("--flesh", std::string(flesh.error().text()));
+            request.flesh = *flesh;
+          },
+          "What shows between gaping lips: a colour (#8a2b22), roughness=SHARE and name=TEXT, "
+          "separated by commas; source: the material of the lips; none: nothing")
+      ->type_name("FLESH")
+      ->default_str("red flesh; the material of the lips on cloth, metal and things")
+      ->needs(flag);
   verb.parse_complete_callback([&verb, form, &request] {
     if (verb.count("--open") > 0)
       request.open = *form == "baked" ? OpenLips::baked : OpenLips::morph;

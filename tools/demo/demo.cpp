@@ -68,12 +68,15 @@ struct TornDemo {
   OperationOutcome outcome;
 };
 
-Result<TornDemo> tear_mid_clip(const std::shared_ptr<const Character>& character) {
+Result<TornDemo> tear_mid_clip(const LoadedCharacter& loaded) {
+  const std::shared_ptr<const Character>& character = loaded.character;
   const Result<ModelPose> pose = make_pose(*character, pose_at(*character, kTearFraction));
   if (!pose) return pose.error();
   const Result<std::vector<DeformedMesh>> posed = pose_model(*character, *pose);
   if (!posed) return posed.error();
-  const SeenStroke seen = choose_stroke(*character, *posed);
+  const Result<SurfaceKinds> kinds = SurfaceKinds::create(*character, loaded.source.get());
+  if (!kinds) return kinds.error();
+  const SeenStroke seen = choose_stroke(*character, *kinds, *posed);
   const TearOperation tear{*pose, seen.stroke, {}, {}};
   if (tear.stroke.empty())
     return Status::failure(StatusCode::empty_input, kNone,
@@ -157,7 +160,7 @@ ExitCode run_demo(const DemoRequest& request) {
   }
 
   progress.begin_step(1, "tearing");
-  Result<TornDemo> demo = tear_mid_clip(model->loaded.character);
+  Result<TornDemo> demo = tear_mid_clip(model->loaded);
   if (!demo) return complain(place, demo.error(), ExitCode::unreadable_input);
   budget.end();
   if (const ExitCode code = write_results(request, place, *model, *demo); code != ExitCode::ok)

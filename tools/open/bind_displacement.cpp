@@ -20,22 +20,6 @@ std::optional<Mat3d> inverse_of(const Mat3d& linear) {
   return Mat3d(linear.inverse());
 }
 
-/// The linear parts by which skinning moves the positions and the normals of a vertex.
-struct Blended {
-  Mat3d of_positions = Mat3d::Zero(), of_normals = Mat3d::Zero();
-};
-
-Blended blend(std::span<const Influence> influences, const std::vector<Affine3d>& palette,
-              const std::vector<Mat3d>& normal_matrices) {
-  Blended blended;
-  for (const Influence& influence : influences) {
-    const double weight = influence.weight;
-    blended.of_positions += weight * palette[influence.slot].linear();
-    blended.of_normals += weight * normal_matrices[influence.slot];
-  }
-  return blended;
-}
-
 /// Carries what changed in one mesh back, vertex by vertex.
 class CarryBack {
  public:
@@ -46,7 +30,7 @@ class CarryBack {
     if (!mesh.tangents.empty()) target_.tangent_deltas.assign(mesh.positions.size(), none);
   }
 
-  void carry(std::uint32_t vertex, const Blended& blended, const DeformedMesh& from,
+  void carry(std::uint32_t vertex, const BindSpace::Blended& blended, const DeformedMesh& from,
              const DeformedMesh& to) {
     const std::optional<Mat3d> back = inverse_of(blended.of_positions);
     if (!back) return;
@@ -90,23 +74,53 @@ class CarryBack {
 
 }  // namespace
 
+Result<BindSpace> BindSpace::create(const Character& character, std::uint32_t mesh,
+                                    const ModelPose& pose) {
+  BindSpace bind;
+  bind.weights_ = &character.meshes[mesh].weights;
+  const Skin& skin = character.skins[character.meshes[mesh].skin];
+  bind.palette_.resize(skin.bones.size());
+  if (const Status status = compute_palette(skin, pose, bind.palette_); !status) return status;
+  for (const Affine3d& matrix : bind.palette_)
+    bind.normal_matrices_.push_back(compute_normal_matrix(matrix.linear()));
+  return bind;
+}
+
+BindSpace::Blended BindSpace::at(std::uint32_t vertex) const {
+  Blended blended;
+  for (const Influence& influence : weights_->of(vertex)) {
+    const double weight = influence.weight;
+    blended.of_positions += weight * palette_[influence.slot].linear();
+    blended.of_normals += weight * normal_matrices_[influence.slot];
+  }
+  return blended;
+}
+
+Vec3f BindSpace::displacement(std::uint32_t vertex, const Vec3f& posed) const {
+  const std::optional<Mat3d> back = inverse_of(at(vertex).of_positions);
+  return back ? Vec3f((*back * posed.cast<double>()).cast<float>()) : Vec3f(Vec3f::Zero());
+}
+
+Vec3f BindSpace::normal(std::uint32_t vertex, const Vec3f& posed) const {
+  const std::optional<Mat3d> back = inverse_of(at(vertex).of_normals);
+  if (!back) return posed;
+  const Vec3d normal = *back * posed.cast<double>();
+  return normal.norm() > 0 ? Vec3f(normal.normalized().cast<float>()) : posed;
+}
+
 Result<MorphTarget> displacement_in_bind(const Character& character, std::uint32_t mesh_index,
                                          const ModelPose& pose, const DeformedMesh& from,
                                          const DeformedMesh& to) {
   if (from.positions == to.positions) return MorphTarget();
   const Mesh& mesh = character.meshes[mesh_index];
-  const Skin& skin = character.skins[mesh.skin];
-  std::vector<Affine3d> palette(skin.bones.size());
-  if (const Status status = compute_palette(skin, pose, palette); !status) return status;
-  std::vector<Mat3d> normal_matrices;
-  for (const Affine3d& matrix : palette)
-    normal_matrices.push_back(compute_normal_matrix(matrix.linear()));
+  const Result<BindSpace> bind = BindSpace::create(character, mesh_index, pose);
+  if (!bind) return bind.error();
   CarryBack back(mesh, pose);
   for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
     const bool is_moved = from.positions[v] != to.positions[v] ||
                           (!to.normals.empty() && from.normals[v] != to.normals[v]) ||
                           (!to.tangents.empty() && from.tangents[v] != to.tangents[v]);
-    if (is_moved) back.carry(v, blend(mesh.weights.of(v), palette, normal_matrices), from, to);
+    if (is_moved) back.carry(v, bind->at(v), from, to);
   }
   return back.finish();
 }

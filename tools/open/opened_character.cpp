@@ -102,12 +102,12 @@ void extend_channels(const NodeWeights& weights, const std::vector<WeightKey>* k
 
 }  // namespace
 
-Result<Character> with_open_target(const Character& torn, const Opening& opening,
+Result<Character> with_open_target(Character torn, const Opening& opening,
                                    std::span<const std::uint32_t> nodes,
                                    std::span<const ClipMoment> moments) {
   Result<std::vector<MorphTarget>> targets = targets_of(torn, opening);
   if (!targets) return targets.error();
-  Character open = torn;
+  Character open = std::move(torn);
   const std::vector<NodeWeights> of_nodes = append_targets(open, std::move(*targets), nodes);
   for (std::uint32_t c = 0; c < open.clips.size(); ++c) {
     Clip& clip = open.clips[c];
@@ -122,10 +122,10 @@ Result<Character> with_open_target(const Character& torn, const Opening& opening
   return open;
 }
 
-Result<Character> with_open_positions(const Character& torn, const Opening& opening) {
+Result<Character> with_open_positions(Character torn, const Opening& opening) {
   const Result<std::vector<MorphTarget>> targets = targets_of(torn, opening);
   if (!targets) return targets.error();
-  Character open = torn;
+  Character open = std::move(torn);
   const auto unit = [](const Vec3f& direction, const Vec3f& otherwise) {
     return direction.norm() > 0.0f ? Vec3f(direction.normalized()) : otherwise;
   };

@@ -25,11 +25,11 @@ struct ClipMoment {
 /// @param torn   the character for which the opening was measured, perhaps with other weights.
 /// @param nodes  per mesh: meshes of one node get the same targets, because they share weights.
 /// @return the failures of displacement_in_bind().
-[[nodiscard]] Result<Character> with_open_target(const Character& torn, const Opening& opening,
+[[nodiscard]] Result<Character> with_open_target(Character torn, const Opening& opening,
                                                  std::span<const std::uint32_t> nodes,
                                                  std::span<const ClipMoment> moments);
 
 /// A torn character whose own positions, normals and tangents gape.
-[[nodiscard]] Result<Character> with_open_positions(const Character& torn, const Opening& opening);
+[[nodiscard]] Result<Character> with_open_positions(Character torn, const Opening& opening);
 
 }  // namespace sunder::tools

@@ -101,9 +101,14 @@ Result<Opening> measure_opening(std::shared_ptr<const Character> character,
   if (const Status status = instance.draw(); !status) return status;
   opening.open = drawn(instance);
   taper_wounds(instance, model->wounds, opening.closed, opening.open);
+  std::vector<DeformedMesh> closed = opening.closed;  // Meshes may lack normals.
+  mend_normals(instance.character(), closed);
+  opening.walls = make_wound_walls(*instance.model(), model->wounds, closed, opening.open);
   opening.course = few_moments(shares(moments));
-  for (const Wound& wound : model->wounds)
-    opening.widest_gap = std::max(opening.widest_gap, widest_gap(instance, wound));
+  for (const Wound& wound : model->wounds) {
+    opening.gaps.push_back(widest_gap(instance, wound));
+    opening.widest_gap = std::max(opening.widest_gap, opening.gaps.back());
+  }
   return opening;
 }
 

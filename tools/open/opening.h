@@ -8,6 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "tools/open/wound_walls.h"
+
 namespace sunder::tools {
 
 /// How the lips of a torn model come to gape, in the pose of its last operation that tears.
@@ -20,7 +22,9 @@ struct Opening {
   ModelPose pose;
   std::vector<DeformedMesh> closed, open;  ///< Per mesh, model space; open: at rest again.
   std::vector<Moment> course;              ///< Few, for linear interpolation.
-  double widest_gap = 0;                   ///< Between points that were one, metres.
+  std::vector<double> gaps;                ///< Of each wound: between points that were one, metres.
+  double widest_gap = 0;                   ///< The greatest of them.
+  WoundWalls walls;                        ///< Between the lips.
 };
 
 /// Tears a character of soft tissue, and lets its lips open until nothing moves.

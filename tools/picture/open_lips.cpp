@@ -9,63 +9,91 @@
 #include <map>
 #include <utility>
 
+#include "tools/picture/wound_tensions.h"
+
 namespace sunder::tools {
 namespace {
 
 /// Range of the particles: a share of the wound's length, so that a wound has several along it,
 /// within these fractions of the model's diagonal.
 constexpr double kRangeOfLength = 0.25, kLeastRange = 0.02, kMostRange = 0.075;
-/// How far the widest wound gapes: a share of its length, and of the body's thickness below it.
-constexpr double kGapOfLength = 0.07, kGapOfThickness = 0.5;
-/// Tension is lowered by this factor while a larger share of the moved surface than this is folded.
-constexpr double kLess = 0.75, kFolded = 0.004;
 constexpr double kFirstTension = 1.0;  ///< Newtons per metre, to begin the search with.
 constexpr double kTaper = 0.4;         ///< Of a wound's length, at each end.
-constexpr int kMostTrials = 6;
 constexpr int kMostLipSteps = 180;
-constexpr std::size_t kMostRays = 200;
+constexpr std::size_t kMostRays = 200, kFewestRays = 16;  ///< Of all wounds, and of each of them.
+
+constexpr double kUnknownThickness = std::numeric_limits<double>::infinity();
 
 struct TornSource {
   double greatest_length = 0;  ///< Of a wound, metres.
-  double thickness = std::numeric_limits<double>::infinity();
+  /// Of the body below each wound, or kUnknownThickness; of all operations that left lips.
+  std::vector<double> thicknesses;
   double diagonal = 1;
 };
 
-/// How thick the body is below a torn surface, at half of its lips at most.
-Result<double> thickness_below(const TornModel& model, const ModelPose& pose,
-                               const std::vector<std::uint32_t>& points,
-                               const std::vector<DeformedMesh>& posed, double diagonal) {
-  std::vector<double> found;
-  auto query = SurfaceQuery::create(model);
-  if (!query) return query.error();
-  if (const Status status = query->set_pose(pose); !status) return status;
-  const std::size_t step = 1 + points.size() / kMostRays;
-  std::vector<bool> is_wanted;
-  for (std::size_t i = 0; i < points.size(); i += step) {
-    is_wanted.resize(std::max<std::size_t>(is_wanted.size(), points[i] + std::size_t{1}));
-    is_wanted[points[i]] = true;
-  }
-  for (std::uint32_t m = 0; m < posed.size(); ++m) {
-    const Mesh& mesh = model.character().meshes[m];
-    for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t)
-      for (std::uint32_t c = 0; c < 3 && !is_retired(mesh.triangles[t]); ++c) {
-        const std::uint32_t point = model.point_at(m, t, c);
-        if (point >= is_wanted.size() || !is_wanted[point]) continue;
-        is_wanted[point] = false;
-        const std::uint32_t v = mesh.triangles[t][c];
-        const Vec3d inwards = -posed[m].normals[v].cast<double>();
-        const double begin = 1e-3 * diagonal;
-        const auto hit = query->cast_ray(
-            {posed[m].positions[v].cast<double>() + begin * inwards, inwards, diagonal});
-        if (!hit) return hit.error();
-        if (*hit) found.push_back((*hit)->distance + begin);
+/// Rays from the lips of wounds to the surface below them.
+class Thicknesses {
+ public:
+  /// @param points  per wound: some of its lips.
+  Thicknesses(const std::vector<std::vector<std::uint32_t>>& points, double diagonal)
+      : diagonal_(diagonal), found_(points.size()) {
+    for (std::uint32_t w = 0; w < points.size(); ++w) {
+      const std::size_t most = std::max(kMostRays / points.size(), kFewestRays);
+      const std::size_t step = 1 + points[w].size() / most;
+      for (std::size_t i = 0; i < points[w].size(); i += step) {
+        wound_of_.resize(std::max<std::size_t>(wound_of_.size(), points[w][i] + std::size_t{1}),
+                         kNone);
+        wound_of_[points[w][i]] = w;
       }
+    }
   }
-  if (found.empty()) return std::numeric_limits<double>::infinity();
-  const auto middle = found.begin() + static_cast<std::ptrdiff_t>(found.size() / 2);
-  std::nth_element(found.begin(), middle, found.end());
-  return *middle;
-}
+
+  Status measure(const TornModel& model, const ModelPose& pose,
+                 const std::vector<DeformedMesh>& posed) {
+    auto query = SurfaceQuery::create(model);
+    if (!query) return query.error();
+    if (const Status status = query->set_pose(pose); !status) return status;
+    for (std::uint32_t m = 0; m < posed.size(); ++m) {
+      const Mesh& mesh = model.character().meshes[m];
+      for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t)
+        for (std::uint32_t c = 0; c < 3 && !is_retired(mesh.triangles[t]); ++c) {
+          const std::uint32_t point = model.point_at(m, t, c);
+          if (point >= wound_of_.size() || wound_of_[point] == kNone) continue;
+          const std::uint32_t wound = std::exchange(wound_of_[point], kNone);
+          if (const Status status = cast(*query, posed[m], mesh.triangles[t][c], wound); !status)
+            return status;
+        }
+    }
+    return {};
+  }
+
+  /// The median per wound.
+  std::vector<double> finish() {
+    std::vector<double> medians;
+    for (std::vector<double>& of : found_) {
+      const auto middle = of.begin() + static_cast<std::ptrdiff_t>(of.size() / 2);
+      if (!of.empty()) std::nth_element(of.begin(), middle, of.end());
+      medians.push_back(of.empty() ? kUnknownThickness : *middle);
+    }
+    return medians;
+  }
+
+ private:
+  Status cast(SurfaceQuery& query, const DeformedMesh& posed, std::uint32_t vertex,
+              std::uint32_t wound) {
+    const Vec3d inwards = -posed.normals[vertex].cast<double>();
+    const double begin = 1e-3 * diagonal_;
+    const auto hit = query.cast_ray(
+        {posed.positions[vertex].cast<double>() + begin * inwards, inwards, diagonal_});
+    if (!hit) return hit.error();
+    if (*hit) found_[wound].push_back((*hit)->distance + begin);
+    return {};
+  }
+
+  double diagonal_;
+  std::vector<std::uint32_t> wound_of_;  ///< Per point; kNone: no ray begins there.
+  std::vector<std::vector<double>> found_;
+};
 
 std::vector<std::uint32_t> points_of(const std::vector<ChangeRecord>& changes) {
   std::vector<std::uint32_t> points;
@@ -80,76 +108,26 @@ Result<TornSource> measure(const std::shared_ptr<const Character>& character,
   Result<TornModel> model = TornModel::create(character);
   if (!model) return model.error();
   TornSource found;
-  std::vector<std::uint32_t> points;
+  std::vector<std::vector<std::uint32_t>> points;
   for (const Operation& operation : history) {
     std::vector<ChangeRecord> changes;
     const Result<TearReport> report = apply_operation(*model, operation, &changes);
     if (!report) return report.error();
-    const std::vector<std::uint32_t> of_operation = points_of(changes);
-    if (of_operation.empty() || std::holds_alternative<CutOperation>(operation)) continue;
-    found.greatest_length = std::max(found.greatest_length, report->length_posed);
-    points.insert(points.end(), of_operation.begin(), of_operation.end());
+    std::vector<std::uint32_t> of_operation = points_of(changes);
+    if (of_operation.empty()) continue;
+    if (std::holds_alternative<CutOperation>(operation))
+      of_operation.clear();  // Its lips gape as they will.
+    else
+      found.greatest_length = std::max(found.greatest_length, report->length_posed);
+    points.push_back(std::move(of_operation));
   }
   const Result<std::vector<DeformedMesh>> posed = pose_model(model->character(), pose);
   if (!posed) return posed.error();
   found.diagonal = bounds_of(model->character(), *posed).size().norm();
-  const Result<double> thickness = thickness_below(*model, pose, points, *posed, found.diagonal);
-  if (!thickness) return thickness.error();
-  found.thickness = *thickness;
+  Thicknesses thicknesses(points, found.diagonal);
+  if (const Status status = thicknesses.measure(*model, pose, *posed); !status) return status;
+  found.thicknesses = thicknesses.finish();
   return found;
-}
-
-/// How often wider the widest wound may be.
-double room(const GapingModel& model, double thickness) {
-  double room = std::numeric_limits<double>::infinity();
-  for (const Wound& wound : model.wounds) {
-    const double gap = widest_gap(model.instance, wound);
-    const double wanted = std::min(kGapOfLength * wound.length, kGapOfThickness * thickness);
-    if (gap > 0 && wound.length > 0) room = std::min(room, wanted / gap);
-  }
-  return room;
-}
-
-/// Whether the surface beside wide open lips turned over: the share of its area that did.
-double folded_share(CharacterInstance& instance, const std::vector<DeformedMesh>& closed) {
-  const std::vector<DeformedMesh> open = drawn(instance);
-  double folded = 0, moved = 0;
-  for (std::size_t m = 0; m < open.size(); ++m)
-    for (const Triangle& triangle : instance.character().meshes[m].triangles) {
-      const auto doubled_area = [&triangle](const DeformedMesh& mesh) {
-        const Vec3f& a = mesh.positions[triangle[0]];
-        return Vec3f((mesh.positions[triangle[1]] - a).cross(mesh.positions[triangle[2]] - a));
-      };
-      const Vec3f before = doubled_area(closed[m]), after = doubled_area(open[m]);
-      if ((before - after).norm() < 0.01f * before.norm()) continue;
-      moved += static_cast<double>(before.norm());
-      if (before.dot(after) < 0) folded += static_cast<double>(before.norm());
-    }
-  return moved > 0 ? folded / moved : 0;
-}
-
-/// Chooses the tension, by how far the tissue opens under others, and closes the lips again.
-Status choose_tension(GapingModel& model, const ModelPose& pose, double thickness) {
-  const Result<CharacterInstance::TissueState> closed = model.instance.tissue();
-  if (!closed) return closed.error();
-  const Result<std::vector<DeformedMesh>> posed = deform_model(model.instance.character(), pose);
-  if (!posed) return posed.error();
-  double widest = std::numeric_limits<double>::infinity();  // Tension without folds.
-  for (int i = 0; i < kMostTrials; ++i) {
-    if (const Status status = open_lips(model.instance, pose); !status) return status;
-    double factor = room(model, thickness);
-    const double tension = model.tension.newtons_per_metre;
-    if (folded_share(model.instance, *posed) > kFolded) widest = kLess * tension;
-    factor = std::min(factor, widest / tension);
-    if (const Status status = model.instance.restore_tissue(*closed); !status) return status;
-    const bool is_enough =
-        factor == std::numeric_limits<double>::infinity() || (factor > 0.97 && factor < 1.03);
-    if (!is_enough) model.tension.newtons_per_metre *= factor;
-    if (const Status status = model.instance.body()->set_tension(model.tension); !status)
-      return status;
-    if (is_enough) break;
-  }
-  return {};
 }
 
 Result<CharacterInstance> make_soft_instance(std::shared_ptr<const Character> character,
@@ -187,7 +165,8 @@ Result<GapingModel> make_gaping_model(std::shared_ptr<const Character> character
     if (!wound.lips.empty()) model.wounds.push_back(std::move(wound));
     model.reports.push_back(std::move(*report));
   }
-  if (const Status status = choose_tension(model, pose, source->thickness); !status) return status;
+  if (const Status status = choose_tensions(model, pose, source->thicknesses); !status)
+    return status;
   return model;
 }
 

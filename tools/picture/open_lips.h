@@ -19,9 +19,9 @@ struct Wound {
   double length = 0;          ///< Metres, posed; 0 of a cut, whose lips may gape as they will.
 };
 
-/// A torn character of soft tissue under an even tension that pulls its lips apart. The tension is
-/// chosen such that the widest wound gapes by a share of its length, or less where the body is
-/// thin.
+/// A torn character of soft tissue under a tension that pulls its lips apart. Its share in each
+/// wound is chosen such that the wound gapes by a share of its length, or less where the body is
+/// thin; see choose_tensions().
 struct GapingModel {
   CharacterInstance instance;       ///< Closed yet: no time has passed.
   std::vector<Wound> wounds;        ///< Those with lips.

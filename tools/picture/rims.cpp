@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace sunder::tools {
 namespace {
@@ -55,7 +56,7 @@ std::vector<RimEdge> find_rims(const TornModel& model) {
   for (const Corner& at : find_borders(model)) {
     const Mesh &mesh = model.character().meshes[at.mesh], &before = model.source().meshes[at.mesh];
     const RimEdge edge{at.mesh, mesh.triangles[at.triangle][at.corner],
-                       mesh.triangles[at.triangle][(at.corner + 1) % 3]};
+                       mesh.triangles[at.triangle][(at.corner + 1) % 3], at.triangle};
     const Index parent = model.source_triangle(at.mesh, at.triangle);
     if (parent >= before.triangle_count()) continue;
     bool was_border = false;
@@ -67,6 +68,35 @@ std::vector<RimEdge> find_rims(const TornModel& model) {
     if (!was_border) rims.push_back(edge);
   }
   return rims;
+}
+
+std::vector<RimEdge> find_borders_at(const TornModel& model, const std::vector<bool>& is_wanted) {
+  const auto wants = [&](Index point) { return point < is_wanted.size() && is_wanted[point]; };
+  std::vector<std::array<Index, 2>> edges;
+  std::vector<std::pair<RimEdge, std::array<Index, 2>>> found;
+  const auto& meshes = model.character().meshes;
+  for (Index m = 0; m < meshes.size(); ++m)
+    for (Index t = 0; t < meshes[m].triangle_count(); ++t) {
+      const Triangle& triangle = meshes[m].triangles[t];
+      if (is_retired(triangle)) continue;
+      const std::array<Index, 3> points = {model.point_at(m, t, 0), model.point_at(m, t, 1),
+                                           model.point_at(m, t, 2)};
+      if (std::none_of(points.begin(), points.end(), wants)) continue;
+      const bool is_filling =
+          model.source_triangle(m, t) >= model.source().meshes[m].triangle_count();
+      for (std::size_t c = 0; c < 3; ++c) {
+        const std::size_t next = (c + 1) % 3;
+        if (!wants(points[c]) && !wants(points[next])) continue;
+        edges.push_back({points[c], points[next]});
+        if (!is_filling)
+          found.push_back({{m, triangle[c], triangle[next], t}, {points[next], points[c]}});
+      }
+    }
+  std::sort(edges.begin(), edges.end());
+  std::vector<RimEdge> borders;
+  for (const auto& [edge, reversed] : found)
+    if (!std::binary_search(edges.begin(), edges.end(), reversed)) borders.push_back(edge);
+  return borders;
 }
 
 }  // namespace sunder::tools

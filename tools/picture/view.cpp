@@ -49,17 +49,18 @@ DepthImage::DepthImage(const Character& character, const std::vector<DeformedMes
   height_ = static_cast<int>(extent.y() / pixel_size_) + 1;
   pixels_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
   for (std::uint32_t mesh = 0; mesh < posed.size(); ++mesh)
-    for (const Triangle& triangle : character.meshes[mesh].triangles) {
+    for (std::size_t t = 0; t < character.meshes[mesh].triangles.size(); ++t) {
+      const Triangle& triangle = character.meshes[mesh].triangles[t];
       std::array<Vec3d, 3> corners;
       for (std::size_t i = 0; i < 3; ++i) {
         corners[i] = seen(posed[mesh].positions[triangle[i]]);
         corners[i].head<2>() = (corners[i].head<2>() - least_) / pixel_size_;
       }
-      draw(mesh, corners);
+      draw({mesh, character.meshes[mesh].triangle_submesh[t]}, corners);
     }
 }
 
-void DepthImage::draw(std::uint32_t mesh, const std::array<Vec3d, 3>& corners) {
+void DepthImage::draw(const Pixel& surface, const std::array<Vec3d, 3>& corners) {
   const auto cross = [](const Vec3d& a, const Vec3d& b, double x, double y) {
     return (b.x() - a.x()) * (y - a.y()) - (b.y() - a.y()) * (x - a.x());
   };
@@ -87,7 +88,7 @@ void DepthImage::draw(std::uint32_t mesh, const std::array<Vec3d, 3>& corners) {
       if (a < 0 || b < 0 || c < 0) continue;
       const double depth = a * corners[0].z() + b * corners[1].z() + c * corners[2].z();
       Pixel& pixel = pixels_[static_cast<std::size_t>(y * width_ + x)];
-      if (depth > pixel.depth) pixel = {mesh, depth, facing};
+      if (depth > pixel.depth) pixel = {surface.mesh, surface.submesh, depth, facing};
     }
 }
 

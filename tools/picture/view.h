@@ -26,8 +26,9 @@ class DepthImage {
  public:
   struct Pixel {
     std::uint32_t mesh = kNone;  ///< kNone: background.
-    double depth = -1e300;       ///< Along towards_eye, metres; larger is nearer.
-    double facing = 0;  ///< Cosine between the surface's normal and the line of sight, >= 0.
+    std::uint32_t submesh = 0;
+    double depth = -1e300;  ///< Along towards_eye, metres; larger is nearer.
+    double facing = 0;      ///< Cosine between the surface's normal and the line of sight, >= 0.
   };
 
   /// @param size  pixels along the longer side.
@@ -44,7 +45,8 @@ class DepthImage {
   [[nodiscard]] Vec3d position(double x, double y) const;
 
  private:
-  void draw(std::uint32_t mesh, const std::array<Vec3d, 3>& corners);
+  /// @param surface  the mesh and the submesh of all pixels.
+  void draw(const Pixel& surface, const std::array<Vec3d, 3>& corners);
 
   ViewFrame frame_;
   Vec2d least_ = Vec2d::Zero();

@@ -15,6 +15,14 @@ int wrapped(int index, int count, RenderMaterial::Wrap wrap) {
   return index < count ? index : period - 1 - index;
 }
 
+/// A texture coordinate in a range in which pixels can be counted.
+float folded(float value, RenderMaterial::Wrap wrap) {
+  if (wrap == RenderMaterial::Wrap::clamp) return std::clamp(value, 0.0f, 1.0f);
+  return std::isfinite(value) ? value - 2 * std::floor(value / 2) : 0.0f;
+}
+
+}  // namespace
+
 const std::array<float, 256>& linear_from_srgb() {
   static const std::array<float, 256> kTable = [] {
     std::array<float, 256> table;
@@ -26,14 +34,6 @@ const std::array<float, 256>& linear_from_srgb() {
   }();
   return kTable;
 }
-
-/// A texture coordinate in a range in which pixels can be counted.
-float folded(float value, RenderMaterial::Wrap wrap) {
-  if (wrap == RenderMaterial::Wrap::clamp) return std::clamp(value, 0.0f, 1.0f);
-  return std::isfinite(value) ? value - 2 * std::floor(value / 2) : 0.0f;
-}
-
-}  // namespace
 
 Vec4f sampled(const Image& image, const std::array<RenderMaterial::Wrap, 2>& wrap,
               const Vec2f& uv) {

@@ -2,9 +2,14 @@
 
 #include <sunder/core/math.h>
 
+#include <array>
+
 #include "tools/render/render_scene.h"
 
 namespace sunder::tools {
+
+/// The linear value of each byte of an image in sRGB.
+[[nodiscard]] const std::array<float, 256>& linear_from_srgb();
 
 /// The mean of the four pixels of an image around a place, linear RGBA.
 [[nodiscard]] Vec4f sampled(const Image& image, const std::array<RenderMaterial::Wrap, 2>& wrap,

@@ -1,5 +1,6 @@
 #include "tools/tear/open_lips_of_run.h"
 
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -7,7 +8,10 @@
 #include "tools/messages/printed.h"
 #include "tools/model/find_clip.h"
 #include "tools/model/history.h"
+#include "tools/model/robot_joints.h"
+#include "tools/model/surface_kinds.h"
 #include "tools/open/opened_character.h"
+#include "tools/open/walled_character.h"
 #include "tools/value_of.h"
 
 namespace sunder::tools {
@@ -38,6 +42,56 @@ std::vector<ClipMoment> moments_of(const TearRun& run) {
   return moments;
 }
 
+/// The material that an operation names for its walls or caps; kNone if it names none.
+std::uint32_t named_material(const Operation& operation) {
+  if (const auto* const tear = std::get_if<TearOperation>(&operation))
+    return tear->options.wall_material;
+  if (const auto* const cut = std::get_if<CutOperation>(&operation)) return cut->cut.cap_material;
+  if (const auto* const drill = std::get_if<DrillOperation>(&operation))
+    return drill->bore.wall_material;
+  return kNone;
+}
+
+/// Which parts of wounds are flesh.
+class FleshMaterials {
+ public:
+  /// @return the failures of SurfaceKinds::create().
+  static Result<FleshMaterials> create(const TearRun& run) {
+    Result<SurfaceKinds> kinds = SurfaceKinds::create(run.model.source(), run.loaded.source.get());
+    if (!kinds) return kinds.error();
+    FleshMaterials materials(run, std::move(*kinds));
+    for (const Operation& operation : value_of(run.model.history()))
+      materials.named_.insert(named_material(operation));
+    return materials;
+  }
+
+  /// The material of a wall beside one of the source's. Links of a robot have no flesh.
+  [[nodiscard]] std::uint32_t beside(std::uint32_t mesh, std::uint32_t material) const {
+    const bool is_flesh = run_.request.flesh.use == FleshOption::Use::flesh &&
+                          !is_urdf(run_.request.model) &&
+                          kinds_.of(mesh, material) != SurfaceKind::dead;
+    return is_flesh ? kinds_.material_count() : material;
+  }
+
+  /// Walls and caps that operations made, unless they named their material.
+  void give_to_fillings(Character& character) const {
+    for (std::uint32_t m = 0; m < character.meshes.size(); ++m) {
+      std::vector<Submesh>& submeshes = character.meshes[m].submeshes;
+      for (std::size_t s = run_.model.source().meshes[m].submeshes.size(); s < submeshes.size();
+           ++s)
+        if (submeshes[s].material == kNone || !named_.contains(submeshes[s].material))
+          submeshes[s].material = beside(m, submeshes[s].material);
+    }
+  }
+
+ private:
+  FleshMaterials(const TearRun& run, SurfaceKinds kinds) : run_(run), kinds_(std::move(kinds)) {}
+
+  const TearRun& run_;
+  SurfaceKinds kinds_;
+  std::set<std::uint32_t> named_;
+};
+
 }  // namespace
 
 ExitCode open_lips_of_run(TearRun& run) {
@@ -48,6 +102,7 @@ ExitCode open_lips_of_run(TearRun& run) {
     return complain(run.request.model.string() + ": --open", opening.error(),
                     ExitCode::internal_error);
   run.opening = std::move(*opening);
+  if (run.request.flesh.use == FleshOption::Use::none) run.opening->walls = {};
   if (run.opening->widest_gap > 0) {
     run.messages.say(printed("--open: lips gape %.4g m", run.opening->widest_gap));
   } else {
@@ -57,24 +112,41 @@ ExitCode open_lips_of_run(TearRun& run) {
   return ExitCode::ok;
 }
 
-Result<std::shared_ptr<const Character>> written_character(const TearRun& run) {
+Result<WrittenModel> written_model(const TearRun& run) {
   const Character& closed = run.certified ? run.certified->character : run.model.character();
   if (!run.opening || !(run.opening->widest_gap > 0))
-    return std::shared_ptr<const Character>(std::shared_ptr<void>(), &closed);
+    return WrittenModel{std::shared_ptr<const Character>(std::shared_ptr<void>(), &closed), {}};
+  Opening opening = *run.opening;
+  Character walled = closed;
+  WrittenModel written;
+  if (run.request.flesh.use != FleshOption::Use::none) {
+    const Result<FleshMaterials> flesh = FleshMaterials::create(run);
+    if (!flesh) return flesh.error();
+    const WallMaterial wall_material = [&](std::uint32_t mesh, std::uint32_t submesh) {
+      return flesh->beside(mesh, closed.meshes[mesh].submeshes[submesh].material);
+    };
+    flesh->give_to_fillings(walled);
+    if (const Status status = add_wound_walls(wall_material, opening, walled); !status)
+      return status;
+    written.materials = {run.request.flesh.material};
+  }
   Result<Character> open =
       run.request.open == OpenLips::baked
-          ? with_open_positions(closed, *run.opening)
-          : with_open_target(closed, *run.opening, nodes_of_meshes(*run.loaded.source),
+          ? with_open_positions(std::move(walled), opening)
+          : with_open_target(std::move(walled), opening, nodes_of_meshes(*run.loaded.source),
                              moments_of(run));
   if (!open) return open.error();
-  return std::make_shared<const Character>(std::move(*open));
+  written.character = std::make_shared<const Character>(std::move(*open));
+  return written;
 }
 
 Json open_lips_json(const TearRun& run) {
   const bool is_morph = run.request.open == OpenLips::morph;
   Json json = {{"as", is_morph ? "morph" : "baked"},
                {"widest_gap", run.opening->widest_gap},
-               {"seconds", run.opening->course.back().seconds}};
+               {"gaps", run.opening->gaps},
+               {"seconds", run.opening->course.back().seconds},
+               {"wall_faces", run.opening->walls.triangle_count()}};
   if (is_morph) json["morph_target"] = kOpenTarget;
   return json;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "tools/messages/exit_code.h"
 #include "tools/tear/tear_run.h"
@@ -11,9 +12,13 @@ namespace sunder::tools {
 /// @return ok, or the exit code of the failure, which was reported.
 [[nodiscard]] ExitCode open_lips_of_run(TearRun& run);
 
-/// The character that is written: with certified weights and open lips, as far as they are asked
-/// for. Valid as long as the run.
-[[nodiscard]] Result<std::shared_ptr<const Character>> written_character(const TearRun& run);
+/// The character that is written: with certified weights, open lips and walls between them, as far
+/// as they are asked for.
+struct WrittenModel {
+  std::shared_ptr<const Character> character;  ///< Valid as long as the run.
+  std::vector<AppendedMaterial> materials;     ///< SaveOptions::materials.
+};
+[[nodiscard]] Result<WrittenModel> written_model(const TearRun& run);
 
 /// The object `open` of the report; only with --open.
 [[nodiscard]] Json open_lips_json(const TearRun& run);

@@ -96,10 +96,12 @@ ExitCode write_files(const TearRun& run, const std::string& report) {
     save.maximum_influences = kAllInfluences;
     save.weights_of_mesh = run.certified->formats;
   }
-  const Result<std::shared_ptr<const Character>> character = written_character(run);
-  if (!character)
-    return complain(request.output->string(), character.error(), ExitCode::internal_error);
-  if (const Status status = save_glb(*request.output, **character, run.loaded, save); !status)
+  const Result<WrittenModel> written = written_model(run);
+  if (!written)
+    return complain(request.output->string(), written.error(), ExitCode::internal_error);
+  save.materials = written->materials;
+  if (const Status status = save_glb(*request.output, *written->character, run.loaded, save);
+      !status)
     return complain(request.output->string(), status, ExitCode::internal_error);
   if (const Status status = log_file.commit(); !status)
     return complain(request.log->string(), status, ExitCode::unreadable_input);

@@ -82,6 +82,17 @@ class FileResolver {
 /// SaveOptions::maximum_influences that writes all.
 inline constexpr std::uint32_t kAllInfluences = kNone;
 
+/// A material without textures.
+struct AppendedMaterial {
+  std::string name;
+  Vec4f base_colour = Vec4f::Ones();  ///< Linear RGBA, each 0 to 1.
+  float metallic = 0.0f;              ///< 0 to 1.
+  float roughness = 1.0f;             ///< 0 to 1.
+  bool double_sided = false;
+
+  bool operator==(const AppendedMaterial&) const = default;
+};
+
 /// How the influences of the meshes that are written are stored. Meshes that stay as they are in
 /// the source document keep theirs.
 struct SaveOptions {
@@ -92,6 +103,9 @@ struct SaveOptions {
   WeightFormat weights = WeightFormat::float32;
   /// One per mesh of the character, in place of `weights`; empty: `weights` for all.
   std::vector<WeightFormat> weights_of_mesh = {};
+  /// Materials that Submesh::material counts after those of the source document. Only to save what
+  /// was loaded.
+  std::vector<AppendedMaterial> materials = {};
 };
 
 /// The influences of a mesh that save_glb() writes.

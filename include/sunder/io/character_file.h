@@ -51,10 +51,10 @@ struct LoadOptions : ReadOptions {
 /// GLB: the source document with new accessors for the meshes that differ and for those that
 /// loading repaired. Appended bones become nodes, and a mesh may take an appended skin; clips that
 /// differ, or are appended, become animations. Morph targets may be appended, as many to all meshes
-/// of a node. All else stays as it was, but for faults, which are repaired or removed, and for data
-/// that nothing uses any more, which is left out (docs/io.md).
-/// If nothing differs and the source is a GLB without faults, the result is the source, byte for
-/// byte. Thread-safe.
+/// of a node. A submesh may name a material of the source or of SaveOptions::materials. All else
+/// stays as it was, but for faults, which are repaired or removed, and for data that nothing uses
+/// any more, which is left out (docs/io.md). If nothing differs and the source is a GLB without
+/// faults, the result is the source, byte for byte. Thread-safe.
 ///
 /// @param character  begins with the skeleton, skins and (perhaps edited) clips of `loaded`.
 /// @return invalid_argument, size_mismatch (not the same character, a clip that glTF cannot

@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace sunder {
 
@@ -49,6 +50,9 @@ struct Tension {
   /// pulls more at its lips, by membrane_stiffness times the strain, and tissue that they compress
   /// less. Lips are never pushed together. Costs O(lip edges) in each step of another pose.
   bool adds_pose_strain = false;
+  /// Optional: the share of it at points of the surface, 0 to 1, such as those of one wound. A lip
+  /// edge is pulled by the smaller share of its ends; points beyond the last entry have 1.
+  std::vector<float> shares = {};
 };
 
 struct HoldOptions {
@@ -208,8 +212,8 @@ class SUNDER_API SoftBody {
 
   /// Bytes of the body, without those of its set.
   [[nodiscard]] std::size_t memory_bytes() const;
-  /// The whole state, except the set, names of materials, the wind, and the direction of the
-  /// tension. O(particles), allocates. @return limit_exceeded: out of memory.
+  /// The whole state, except the set, names of materials, the wind, and the direction and
+  /// the shares of the tension. O(particles), allocates. @return limit_exceeded: out of memory.
   [[nodiscard]] Result<StateArrays> save() const;
   /// Sets the state: the body goes on with the same bits as the saved one.
   /// @param state  of a body with the same number of materials, whose set had the state that this
