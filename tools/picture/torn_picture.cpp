@@ -169,6 +169,8 @@ Status draw_torn(const LoadedCharacter& loaded, std::span<const Operation> histo
     pieces.clear();
     for (const TornPiece& piece : model->reports[i].pieces) {
       Result<PieceDescription> description = torn.describe_piece(piece);
+      // A later operation may have taken the piece off.
+      if (!description && description.error().code() == StatusCode::not_found) continue;
       if (!description) return description.error();
       pieces.push_back(std::move(*description));
     }
