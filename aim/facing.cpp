@@ -55,8 +55,11 @@ bool are_feet_reversed(const Skeleton& skeleton, const ModelPose& pose,
   const auto lowest = std::min_element(
       pairs.begin(), pairs.end(),
       [&](const Pair& a, const Pair& b) { return at(a.left).y() < at(b.left).y(); });
-  if (lowest == pairs.end() || skeleton.bones[lowest->left].parent == kNone) return false;
-  const Vec3d way = level(at(lowest->left) - at(skeleton.bones[lowest->left].parent));
+  if (lowest == pairs.end()) return false;
+  // A foot for inverse kinematics hangs on the root, which says nothing about its direction.
+  const Index leg = skeleton.bones[lowest->left].parent;
+  if (std::ranges::none_of(pairs, [&](const Pair& pair) { return pair.left == leg; })) return false;
+  const Vec3d way = level(at(lowest->left) - at(leg));
   return norm(way) > 0 && dot(way, front) < -kLeastFootCosine * norm(way);
 }
 

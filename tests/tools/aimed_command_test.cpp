@@ -155,6 +155,9 @@ TEST_F(AimedCommand, a_severed_limb_is_taken_off_and_written) {
               ElementsAre("cut", "detach"));
   EXPECT_TRUE(exists("top1.glb"));
   EXPECT_FALSE(exists("top2.glb"));
+  EXPECT_THAT(operations_of({"--sever", "Trunk4@0.5,detach", "--picture", path("off.png")}),
+              ElementsAre("cut", "detach"));
+  EXPECT_TRUE(exists("off.png"));
   const CommandResult parts = tear({"--sever", "Trunk4@0.5,parts=some"});
   EXPECT_EQ(parts.exit_code, 2);
   EXPECT_THAT(parts.err, HasSubstr("parts: expected all or none"));

@@ -129,6 +129,19 @@ void add_robot(const std::vector<Mesh>& surfaces, const ModelLooks& looks, Rende
     looks.add_mesh(surface, {surface.positions, surface.normals, {}}, {}, scene);
 }
 
+/// The pieces of an operation that no later one has taken off.
+Result<std::vector<PieceDescription>> pieces_left(const TornModel& torn, const TearReport& report) {
+  std::vector<PieceDescription> pieces;
+  for (const TornPiece& piece : report.pieces) {
+    Result<PieceDescription> description = torn.describe_piece(piece);
+    if (description)
+      pieces.push_back(std::move(*description));
+    else if (description.error().code() != StatusCode::not_found)
+      return description.error();
+  }
+  return pieces;
+}
+
 /// Moves the pieces of a cut away from its plane, to both sides.
 void move_apart(const Character& character, const PlaneCut& cut,
                 const std::vector<PieceDescription>& pieces, double distance,
@@ -163,15 +176,11 @@ Status draw_torn(const LoadedCharacter& loaded, std::span<const Operation> histo
   if (!model) return model.error();
   CharacterInstance& instance = model->instance;
   const TornModel& torn = *instance.model();
-  std::vector<PieceDescription> pieces;
+  Result<std::vector<PieceDescription>> pieces = std::vector<PieceDescription>();
   for (std::size_t i = 0; i < history.size(); ++i) {
     if (!is_visible(history[i])) continue;
-    pieces.clear();
-    for (const TornPiece& piece : model->reports[i].pieces) {
-      Result<PieceDescription> description = torn.describe_piece(piece);
-      if (!description) return description.error();
-      pieces.push_back(std::move(*description));
-    }
+    pieces = pieces_left(torn, model->reports[i]);
+    if (!pieces) return pieces.error();
   }
   const Result<std::vector<DeformedMesh>> closed = pose_model(torn.character(), *pose);
   if (!closed) return closed.error();
@@ -186,7 +195,7 @@ Status draw_torn(const LoadedCharacter& loaded, std::span<const Operation> histo
   std::erase_if(wounds, [](const Wound& wound) { return !(wound.length > 0); });
   taper_wounds(instance, wounds, *closed, open);
   const auto* const cut = std::get_if<CutOperation>(&newest);
-  if (cut != nullptr) move_apart(torn.character(), cut->cut, pieces, kApart * diagonal, open);
+  if (cut != nullptr) move_apart(torn.character(), cut->cut, *pieces, kApart * diagonal, open);
 
   ViewFrame frame = view_of(newest, bounds);
   Result<std::vector<Mesh>> beside =
