@@ -376,12 +376,12 @@ TEST(SaveGlb, appends_materials_that_a_submesh_names_and_keeps_those_of_the_sour
   ASSERT_TRUE(save_glb(file, torn, loaded, options));
   Json materials = json_of(read_bytes(file))["materials"];
   ASSERT_EQ(materials.size(), before.size() + 1);
-  EXPECT_EQ(materials.back(), Json({{"name", "Flesh"},
-                                    {"doubleSided", true},
-                                    {"pbrMetallicRoughness",
+  EXPECT_EQ(materials.back(), Json({{"pbrMetallicRoughness",
                                      {{"baseColorFactor", {0.5, 0.125, 0.0625, 1.0}},
                                       {"metallicFactor", 0.0},
-                                      {"roughnessFactor", 0.25}}}}));
+                                      {"roughnessFactor", 0.25}}},
+                                    {"name", "Flesh"},
+                                    {"doubleSided", true}}));
   materials.erase(materials.size() - 1);
   EXPECT_EQ(materials, before);
   const auto again = load_character(file);

@@ -56,7 +56,8 @@ function woundsOf(meshes) {
 function cameraOf(wound) {
   const centre = wound.box.getCenter(new THREE.Vector3());
   const radius = 0.5 * wound.box.getSize(new THREE.Vector3()).length();
-  const camera = new THREE.OrthographicCamera(-1.2 * radius, 1.2 * radius, 1.2 * radius, -1.2 * radius, 0, 1e3 * radius);
+  const half = 1.2 * radius;
+  const camera = new THREE.OrthographicCamera(-half, half, half, -half, 0, 1e3 * radius);
   const towards = wound.normal.clone().normalize();
   if (Math.abs(towards.y) > 0.9) camera.up.set(0, 0, 1);
   camera.position.copy(centre).addScaledVector(towards, 2 * radius);
@@ -93,7 +94,8 @@ function enclosed(seen) {
     for (const border of [i, (SIZE - 1) * SIZE + i, i * SIZE, i * SIZE + SIZE - 1]) visit(border);
   while (open.length > 0) {
     const i = open.pop();
-    for (const [next, is] of [[i - 1, i % SIZE > 0], [i + 1, i % SIZE < SIZE - 1], [i - SIZE, i >= SIZE], [i + SIZE, i < SIZE * (SIZE - 1)]])
+    for (const [next, is] of [[i - 1, i % SIZE > 0], [i + 1, i % SIZE < SIZE - 1],
+      [i - SIZE, i >= SIZE], [i + SIZE, i < SIZE * (SIZE - 1)]])
       if (is) visit(next);
   }
   return seen.map((kind, i) => kind === 0 && !outside[i]);
@@ -104,7 +106,8 @@ function picture(scene, camera) {
   renderer.setClearColor(0x9cc8f0);  // The sky.
   const lights = [new THREE.HemisphereLight(0xffffff, 0x888888, 1.5), new THREE.DirectionalLight(0xffffff, 2.5)];
   lights[1].position.copy(camera.position).add(new THREE.Vector3(-1, 2, 1).multiplyScalar(camera.top));
-  lights[1].target.position.copy(camera.position).addScaledVector(camera.getWorldDirection(new THREE.Vector3()), camera.top);
+  const ahead = camera.getWorldDirection(new THREE.Vector3());
+  lights[1].target.position.copy(camera.position).addScaledVector(ahead, camera.top);
   scene.add(...lights, lights[1].target);
   renderer.render(scene, camera);
   scene.remove(...lights, lights[1].target);
@@ -198,7 +201,8 @@ try {
     const found = await page.evaluate((url, how) => globalThis.look(url, how), `/model/${i}.glb`, options);
     for (const [w, wound] of found.wounds.entries()) {
       if (wound.picture)
-        await writeFile(join(folder, `${basename(files[i], '.glb')}_${w}.png`), Buffer.from(wound.picture.split(',')[1], 'base64'));
+        await writeFile(join(folder, `${basename(files[i], '.glb')}_${w}.png`),
+          Buffer.from(wound.picture.split(',')[1], 'base64'));
       delete wound.picture;
     }
     console.log(JSON.stringify({ file: basename(files[i]), ...found }));
