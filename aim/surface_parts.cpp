@@ -10,9 +10,11 @@ namespace sunder::aim {
 namespace {
 
 /// A part that holds less of the limb and of other bones than this share of what the limb moves is
-/// a scarf between them, not their body.
+/// a scarf between them, not their body; unless it is a large part of the limb and shares so much
+/// of itself: a face below much hair and a hat.
 constexpr double kLeastShared = 0.02;
-/// Of the parts that only the limb moves, those count that hold at least this share of it.
+/// A large part of the limb holds at least this share of it. Where no part joins it to others,
+/// those are its body.
 constexpr double kLeastOfLimb = 0.1;
 /// The limb alone moves a part if it moves at least so much of it.
 constexpr double kLeastOfProp = 0.9;
@@ -88,7 +90,11 @@ void SurfaceParts::choose_body() {
     most = shared;
     best = &part;
   }
-  if (best != nullptr && most >= kLeastShared * whole) {
+  const auto joins = [&](const Part& part) {
+    return most >= kLeastShared * whole ||
+           (part.moved >= kLeastOfLimb * whole && most >= kLeastShared * part.size);
+  };
+  if (best != nullptr && joins(*best)) {
     best->is_body = true;
     return;
   }

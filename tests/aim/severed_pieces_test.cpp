@@ -147,6 +147,40 @@ TEST(SeveredPieces, what_lies_before_a_cut_inside_the_last_bone_stays) {
   }
 }
 
+/// A body from y = 0 to 2, a head of its own on it whose neck moves a little with the body, and a
+/// hat that holds most of what the bone of the head moves.
+Character make_hidden_head() {
+  Character character = test::make_tube(24, 16, 3);
+  const Mesh tube = character.meshes[0];
+  Mesh& body = character.meshes[0];
+  for (Vec3f& position : body.positions) position.y() *= 2.0f / 3;
+  body.weights = SkinWeights();
+  for (std::uint32_t vertex = 0; vertex < body.vertex_count(); ++vertex) {
+    const Influence whole{body.positions[vertex].y() < 1 ? 0u : 1u, 1.0f};
+    body.weights.append({&whole, 1});
+  }
+  add_prop(character, tube, "head", {0.6f, 0.4f, 0.6f}, {0, 1.9f, 0}, kHand);
+  Mesh& head = character.meshes[1];
+  head.weights = SkinWeights();
+  for (std::uint32_t vertex = 0; vertex < head.vertex_count(); ++vertex) {
+    const bool is_neck = head.positions[vertex].y() < 1.98f;
+    const std::array influences = {Influence{kHand, is_neck ? 0.5f : 1.0f}, Influence{1, 0.5f}};
+    head.weights.append({influences.data(), is_neck ? 2u : 1u});
+  }
+  add_prop(character, tube, "hat", {3, 1, 3}, {0, 2.4f, 0}, kHand);
+  return character;
+}
+
+TEST(SeveredPieces, a_head_comes_off_below_a_hat_that_is_larger) {
+  TornModel model = make_model(make_hidden_head());
+  const auto sever = at_nearest_share(model, sever_of("bone2", 0));
+  ASSERT_TRUE(sever) << sever.error().text();
+  const double before = weight_left(model.character(), 1, kHand);
+  EXPECT_EQ(sever_and_detach(model, std::get<SeverOperation>(*sever)), 2u);
+  EXPECT_LT(weight_left(model.character(), 1, kHand), 0.3 * before);
+  EXPECT_EQ(weight_left(model.character(), 2, kHand), 0.0);
+}
+
 /// The cut-off hand is a part of the body still: it counts as what the forearm held.
 TEST(SeveredPieces, a_limb_is_severed_again_beyond_and_before_an_earlier_cut) {
   for (const double at : {0.3, 0.8}) {
