@@ -172,10 +172,14 @@ Json parse_json(std::string_view text, std::uint64_t maximum_memory, const Decod
     refuse(StatusCode::limit_exceeded, kNone,
            "JSON: parsing its %zu bytes exceeds %llu bytes (LoadOptions::maximum_memory)",
            text.size(), static_cast<unsigned long long>(maximum_memory));
-  const JsonLimits limits = {kMaximumNesting, kMaximumMembers, maximum_memory};
+  // Its memory and that of the document are needed at once; of small files, the document may take
+  // what there is at least.
+  constexpr std::uint64_t kSmall = std::uint64_t{48} << 20;
+  const std::uint64_t memory = std::max(maximum_memory / 2, std::min(maximum_memory, kSmall));
+  const JsonLimits limits = {kMaximumNesting, kMaximumMembers, memory};
   if (decoders.json != nullptr)
     if (auto document = decoders.json(text, limits)) return *std::move(document);
-  check_nesting(text, maximum_memory);
+  check_nesting(text, memory);
   try {
     return Json::parse(text.begin(), text.end());
   } catch (const nlohmann::json::exception& error) {

@@ -1,6 +1,7 @@
 # The library exports the functions of its header and nothing else, and needs no library but these.
 file(READ ${HEADER} header)
-string(REGEX MATCHALL "SUNDER_C_API[^;]*\\(" declared "${header}")
+string(REGEX REPLACE "[][;]" " " header "${header}")  # which would join or part elements of a list
+string(REGEX MATCHALL "SUNDER_C_API [^(]*sunder_[a-z_]+\\(" declared "${header}")
 set(expected)
 foreach(one IN LISTS declared)
   string(REGEX REPLACE ".*[ *\n](sunder_[a-z_]+)\\(.*" "\\1" name "${one}")

@@ -65,6 +65,7 @@ void add_aimed_operations(CLI::App& verb) {
           "Which way the character faces, for from= of the options above: +x, -x, +z, -z or x/y/z; "
           "without it, as its rig tells")
       ->type_name("DIRECTION")
+      ->default_str("as its rig tells; said if that is uncertain or not +z")
       ->group("Aimed operations");
 }
 
