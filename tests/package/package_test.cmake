@@ -67,8 +67,8 @@ if(WITH_C AND pkg_config AND c_compiler AND NOT CXX_FLAGS MATCHES "sanitize")
   execute_process(COMMAND ${pkg_config} --cflags --libs sunder_c OUTPUT_VARIABLE flags COMMAND_ERROR_IS_FATAL ANY)
   separate_arguments(flags UNIX_COMMAND "${flags}")
   run(${c_compiler} ${consumer}/c_consumer.c -o ${WORK}/c_consumer ${flags})
-  cmake_path(GET pc_folder PARENT_PATH ENV{LD_LIBRARY_PATH})
-  run(${WORK}/c_consumer)
+  cmake_path(GET pc_folder PARENT_PATH libraries)
+  run(${CMAKE_COMMAND} -E env LD_LIBRARY_PATH=${libraries} ${WORK}/c_consumer)
 endif()
 
 # The runtime with Eigen only, as shared libraries: other packages are hidden from CMake, so a
