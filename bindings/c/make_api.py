@@ -173,6 +173,15 @@ class Api:
                 "structs": list(self.structs.values()), "functions": self.functions}
 
 
+def text_of(api):
+    """JSON with one line per entry, so that changes are easy to see."""
+    def lines(value):
+        if not isinstance(value, list):
+            return json.dumps(value)
+        return "[\n" + ",\n".join("  " + json.dumps(entry) for entry in value) + "\n ]"
+    return "{\n" + ",\n".join(f" {json.dumps(key)}: {lines(value)}" for key, value in api.items()) + "\n}"
+
+
 def checks(api):
     lines = ["#include <stddef.h>", "#include <sunder_c.h>",
              "#define SAME(a, b) _Static_assert((a) == (b), #a)", "#define BITS (sizeof(void*) * 8)"]
@@ -231,7 +240,7 @@ def main():
         fail("usage: make_api.py HEADER [--checks | --calls]")
     with open(sys.argv[1], encoding="utf-8") as file:
         api = Api(file.read()).json()
-    print(forms[sys.argv[2]](api) if len(sys.argv) == 3 else json.dumps(api, indent=1))
+    print(forms[sys.argv[2]](api) if len(sys.argv) == 3 else text_of(api))
 
 
 main()
