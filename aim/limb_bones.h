@@ -25,9 +25,9 @@ struct LimbShares {
   [[nodiscard]] double below() const { return of_role[1]; }
   [[nodiscard]] double limb() const { return of_role[0] + of_role[1]; }
   [[nodiscard]] double parent() const { return of_role[2]; }
-  /// Of all that are neither of the limb nor its parent.
+  /// The share of all bones that are neither of the limb nor its parent.
   [[nodiscard]] double other() const { return of_role[3] + of_role[4]; }
-  /// Of those that are not above the limb either: of other limbs.
+  /// The share of those among them that are not above the limb: of other limbs.
   [[nodiscard]] double other_limbs() const { return of_role[4]; }
   void add(const LimbShares& shares, double factor) {
     for (std::size_t i = 0; i < of_role.size(); ++i) of_role[i] += factor * shares.of_role[i];

@@ -15,7 +15,7 @@ namespace sunder::aim {
 /// Whether a sever takes off what a judge asks for.
 [[nodiscard]] bool severs(const PosedSurface& surface, const SeverOperation& sever,
                           const SeverJudge& judge);
-/// What comes off at a sever, before it is applied.
+/// Finds what a sever will take off.
 [[nodiscard]] Result<SeveredPieces> find_severed_pieces(const PosedSurface& surface,
                                                         const SeverOperation& sever);
 [[nodiscard]] Result<Operation> resolve_puncture(const PosedSurface& surface,

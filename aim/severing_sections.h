@@ -11,7 +11,8 @@ namespace sunder::aim {
 struct Severing {
   std::vector<Section> sections;
   std::string fault;  ///< Empty if there are sections.
-  /// Of the limb's own sections, also where they do not sever it: for "was it cut before?".
+  /// The sections of the limb itself, also those that do not sever it: they tell whether it was
+  /// cut before.
   std::vector<Section> own;
 };
 

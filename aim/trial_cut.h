@@ -9,15 +9,15 @@
 
 namespace sunder::aim {
 
-/// What must come off at least.
+/// Says how much a cut must take off to count as a sever.
 struct SeverJudge {
   bool is_whole =
       false;  ///< Most of all that the limb moves on the body, not only beyond the plane.
   bool counts_props = false;  ///< What comes off beside the cut counts too: a head of loose parts.
 };
 
-/// What a cut through some sections of a limb would take off: the surface on the far side of them,
-/// with the separate parts that mostly move with the limb. The model is not changed.
+/// Finds what a cut through some sections of a limb would take off: the surface beyond them, with
+/// the separate parts that mostly move with the limb. The model is not changed.
 class TrialCut {
  public:
   /// O(faces).

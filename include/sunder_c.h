@@ -4,7 +4,8 @@
  * another kind, is refused: SUNDER_INVALID_HANDLE. Every object has one destroy function; objects
  * that others need live on until those are destroyed. Calls return a status; sunder_last_error()
  * has the text and sunder_last_error_index() the index of the last failure of the thread. A failing
- * call changes nothing, and writes nothing through its output pointers.
+ * call changes nothing, and writes nothing through its output pointers; only sunder_apply_log()
+ * keeps what came before the failure.
  *
  * Structs that have a `struct_size` are made by sunder_default_...(), or, for outputs, get
  * `x.struct_size = sizeof x` before the call; any other size is refused: SUNDER_INVALID_STRUCT. A
@@ -727,9 +728,9 @@ SUNDER_C_API sunder_status sunder_submit_redo(sunder_scene scene, sunder_instanc
                                               sunder_command* command);
 
 /* Applies an operation log (docs/operation_log.md) at once, in the poses that it names; tissue
- * follows. The log as a whole: if an operation fails, those before it are undone. operation_count:
- * written, or null. Fails: as reading the log (the text has the place in it), and as the operation
- * (the index is its number). */
+ * follows. Stops at the first operation that fails: those before it stay, and operation_count, the
+ * number of them, is written then too (or it is null). Fails: as reading the log, which applies
+ * nothing (the text has the place in it), and as the operation (the index is its number). */
 SUNDER_C_API sunder_status sunder_apply_log(sunder_scene scene, sunder_instance instance,
                                             const char* json, uint64_t size,
                                             uint32_t* operation_count);

@@ -3,12 +3,12 @@
 #include <cstdlib>
 
 #include "bench/harness/measure.h"
+#include "tear/internal/mesh_vertices.h"
 #include "tear/path/entry.h"
 #include "tear/path/imprint.h"
 #include "tear/path/imprint_point.h"
 #include "tear/surface/describe_change.h"
 #include "tear/surface/improve.h"
-#include "tear/internal/mesh_vertices.h"
 #include "tear/surface/open.h"
 
 namespace sunder::bench {

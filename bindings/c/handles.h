@@ -11,7 +11,7 @@ enum class Kind : std::uint8_t { none, bytes, character, asset, scene, piece };
 
 [[nodiscard]] const char* name_of(Kind kind);
 
-/// What a handle names. Each kind of object is a class of its own, with its `kKind`.
+/// A handle names an object. Each kind of object has a class, whose `kKind` says which it is.
 class Object {
  public:
   virtual ~Object() = default;

@@ -6,9 +6,9 @@
 namespace sunder::c {
 namespace {
 
-sunder_material material_of(const SoftMaterial& from) {
-  sunder_material to = {};
-  to.struct_size = sizeof to;
+/// Copies all fields that both kinds of material have.
+template <class From, class To>
+void copy_fields(const From& from, To& to) {
   to.return_frequency = from.return_frequency;
   to.damping_ratio = from.damping_ratio;
   to.membrane_stiffness = from.membrane_stiffness;
@@ -19,6 +19,12 @@ sunder_material material_of(const SoftMaterial& from) {
   to.strength = from.strength;
   to.toughness = from.toughness;
   to.flaw_length = from.flaw_length;
+}
+
+sunder_material material_of(const SoftMaterial& from) {
+  sunder_material to = {};
+  to.struct_size = sizeof to;
+  copy_fields(from, to);
   return to;
 }
 
@@ -26,16 +32,7 @@ sunder_material material_of(const SoftMaterial& from) {
 
 SoftMaterial material_of(const sunder_material& from) {
   SoftMaterial to;
-  to.return_frequency = from.return_frequency;
-  to.damping_ratio = from.damping_ratio;
-  to.membrane_stiffness = from.membrane_stiffness;
-  to.membrane_damping = from.membrane_damping;
-  to.areal_density = from.areal_density;
-  to.range = from.range;
-  to.stretch_limit = from.stretch_limit;
-  to.strength = from.strength;
-  to.toughness = from.toughness;
-  to.flaw_length = from.flaw_length;
+  copy_fields(from, to);
   return to;
 }
 

@@ -154,6 +154,7 @@ void check_required_extensions(const Cursor& document) {
 
 /// Also a compression that the file only uses: its data may have no other form.
 void check_compression(const Cursor& document, const Decoders& decoders) {
+  if (decoders.draco_primitives != nullptr && decoders.meshopt_views != nullptr) return;
   const auto used = document.find("extensionsUsed");
   if (!used) return;
   for (std::size_t i = 0; i < used->size(); ++i) {

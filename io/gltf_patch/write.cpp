@@ -204,11 +204,10 @@ class Patch {
     });
     if (!is_any_named) return;
     for (const AppendedMaterial& of : options_.materials) {
-      Json material = {
-          {"pbrMetallicRoughness",
-           {{"baseColorFactor", numbers_of({of.base_colour.data(), 4})},
-            {"metallicFactor", static_cast<double>(of.metallic)},
-            {"roughnessFactor", static_cast<double>(of.roughness)}}}};
+      Json material = {{"pbrMetallicRoughness",
+                        {{"baseColorFactor", numbers_of({of.base_colour.data(), 4})},
+                         {"metallicFactor", static_cast<double>(of.metallic)},
+                         {"roughnessFactor", static_cast<double>(of.roughness)}}}};
       if (!of.name.empty()) material["name"] = of.name;
       if (of.double_sided) material["doubleSided"] = true;
       if (of.base_colour.w() < 1) material["alphaMode"] = "BLEND";

@@ -7,9 +7,9 @@
 
 #include "core/internal/ordered.h"
 #include "tear/geometry/tolerances.h"
+#include "tear/internal/mesh_vertices.h"
 #include "tear/internal/surface.h"
 #include "tear/surface/append_filling.h"
-#include "tear/internal/mesh_vertices.h"
 
 namespace sunder::tear {
 namespace {

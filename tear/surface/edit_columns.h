@@ -9,8 +9,8 @@
 #include <iterator>
 #include <vector>
 
-#include "tear/internal/surface.h"
 #include "tear/internal/mesh_vertices.h"
+#include "tear/internal/surface.h"
 
 namespace sunder::tear {
 

@@ -6,8 +6,8 @@
 
 #include "tear/geometry/face_shape.h"
 #include "tear/geometry/tolerances.h"
-#include "tear/internal/surface.h"
 #include "tear/internal/mesh_vertices.h"
+#include "tear/internal/surface.h"
 
 namespace sunder::tear {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "tear/surface/face_split.h"
 #include "tear/internal/mesh_vertices.h"
+#include "tear/surface/face_split.h"
 
 namespace sunder::tear {
 

@@ -287,5 +287,14 @@ TEST(LoadGltfFiles, external_buffers_may_be_in_further_roots) {
   EXPECT_EQ(load_with("missing.bin").error().code(), StatusCode::file_not_found);
 }
 
+TEST(LoadGltfMesh, an_odd_list_of_used_extensions_does_not_matter) {
+  for (const Json& odd : {Json(nullptr), Json(7), Json::array({1, nullptr})}) {
+    GltfBuilder builder = skinned_strip();
+    builder.json["extensionsUsed"] = odd;
+    const auto loaded = builder.load();
+    EXPECT_TRUE(loaded) << odd.dump() << ": " << loaded.error().text();
+  }
+}
+
 }  // namespace
 }  // namespace sunder::test

@@ -18,6 +18,7 @@
 #include "support/models/random_operations.h"
 #include "support/models/rigs.h"
 #include "support/oracles/surface_scans.h"
+#include "tear/internal/mesh_vertices.h"
 #include "tear/internal/surface.h"
 #include "tear/operation/cut.h"
 #include "tear/operation/drill.h"
@@ -25,7 +26,6 @@
 #include "tear/posed/hilbert_curve.h"
 #include "tear/sheet/gap.h"
 #include "tear/sheet/open_sheet.h"
-#include "tear/internal/mesh_vertices.h"
 
 namespace sunder::tear {
 namespace {

@@ -17,7 +17,7 @@ using Texel = std::array<std::uint8_t, 4>;
 
 /// Adds a unit square with its lower left corner at (x, 0, z).
 inline void add_square(test::GltfBuilder& builder, float x, float z, const OrderedJson& material,
-                const std::vector<float>& color = {}) {
+                       const std::vector<float>& color = {}) {
   OrderedJson attributes;
   attributes["POSITION"] = builder.add<float>({x, 0, z, x + 1, 0, z, x + 1, 1, z, x, 1, z}, "VEC3");
   attributes["NORMAL"] = builder.add<float>({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");

@@ -463,7 +463,8 @@ TEST_F(ViewPage, a_texture_transform_moves_and_turns_the_image) {
   const json facts = used("colours", path("turned.html"), places);
   std::vector<int> hues;
   for (const json& pixel : facts["colours"]) hues.push_back(hue_of(pixel));
-  // Turned: (0.25, 0.25) -> (0.25, 0.75), (0.75, 0.25) -> (0.25, 0.25), (0.25, 0.75) -> (0.75, 0.75).
+  // Turned: (0.25, 0.25) -> (0.25, 0.75), (0.75, 0.25) -> (0.25, 0.25), (0.25, 0.75) -> (0.75,
+  // 0.75).
   EXPECT_EQ(hues, (std::vector<int>{0, 1, 2, -1, 1, 1, 1, 1, 2, 0, -1, 1}));
 }
 

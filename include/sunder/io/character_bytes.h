@@ -36,6 +36,7 @@ struct LoadReport {
   std::vector<LoadNote> notes;
 };
 
+/// How a model is read.
 struct ReadOptions {
   /// Refuses what would otherwise be repaired or dropped.
   bool strict = false;
@@ -52,7 +53,7 @@ struct LoadedCharacter {
   std::shared_ptr<const Character> character;    ///< Satisfies validate_character().
   std::shared_ptr<const SourceDocument> source;  ///< For save_glb().
   LoadReport report;
-  /// One per mesh, with LoadOptions::keep_stored_influences; empty for formats other than glTF.
+  /// One per mesh, with ReadOptions::keep_stored_influences; empty for formats other than glTF.
   std::vector<StoredInfluences> stored;
 };
 
@@ -61,10 +62,9 @@ class FileResolver {
  public:
   virtual ~FileResolver() = default;
 
-  /// @param uri  as it stands in the model, percent codes included: that of a buffer, when the
-  /// model
-  ///             is read, or of an image, when the model is read and when it is written. May throw
-  ///             std::bad_alloc only.
+  /// Thread-safe. Is asked for buffers when a model is read, and for images when it is read and
+  /// when it is written. Throws nothing but std::bad_alloc.
+  /// @param uri  as it stands in the model, percent codes included.
   /// @return the bytes of the file, or a failure if there is none.
   [[nodiscard]] virtual Result<std::vector<std::byte>> read(std::string_view uri) const = 0;
 };
