@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/internal/bone_sides.h"
+#include "aim/bone_pairs.h"
 #include "core/internal/ordered.h"
 #include "operation/internal/view_sides.h"
 
@@ -18,27 +18,14 @@ constexpr std::size_t kLeastPairs = 2;
 constexpr double kLeastAgreement = 0.7;
 /// A direction within 15 degrees of an axis is meant to be the axis.
 constexpr double kAxisCosine = 0.966;
-/// Feet point forward if their direction leans to the front by no more than 60 degrees.
-constexpr double kLeastFootCosine = 0.5;
+/// Feet that reach at least this share of their length to the front or the back tell which is
+/// which.
+constexpr double kLeastReach = 0.1;
+/// Pairs of bones that are above the lowest by at most this share of what all are apart are feet.
+constexpr double kFootHeight = 0.15;
 /// Cosine of the least angle between a bone and the front at which it is seen from there unless
 /// told otherwise: 30 degrees.
 constexpr double kMostCosine = 0.866;
-
-Vec3d level(const Vec3d& direction) { return {direction.x(), 0.0, direction.z()}; }
-
-/// The two bones of a pair.
-struct Pair {
-  Index left = 0, right = 0;
-};
-
-std::vector<Pair> pairs_of(const Skeleton& skeleton) {
-  const std::vector<Index> mirrored = mirrored_bones(skeleton);
-  std::vector<Pair> pairs;
-  for (Index bone = 0; bone < mirrored.size(); ++bone)
-    if (mirrored[bone] != kNone && side_of_name(skeleton.bones[bone].name) < 0)
-      pairs.push_back({bone, mirrored[bone]});
-  return pairs;
-}
 
 /// The nearest axis of the ground if it is near, so that a rig that is crooked by some degrees is
 /// seen straight.
@@ -48,19 +35,72 @@ Vec3d straightened(const Vec3d& direction) {
   return direction;
 }
 
-/// Whether the lowest pair of bones, the feet or toes, points to the back instead of the front.
-bool are_feet_reversed(const Skeleton& skeleton, const ModelPose& pose,
-                       const std::vector<Pair>& pairs, const Vec3d& front) {
-  const auto at = [&](Index bone) { return pose.model_from_bone[bone].translation(); };
-  const auto lowest = std::min_element(
-      pairs.begin(), pairs.end(),
-      [&](const Pair& a, const Pair& b) { return at(a.left).y() < at(b.left).y(); });
-  if (lowest == pairs.end()) return false;
-  // A foot for inverse kinematics hangs on the root, which says nothing about its direction.
-  const Index leg = skeleton.bones[lowest->left].parent;
-  if (std::ranges::none_of(pairs, [&](const Pair& pair) { return pair.left == leg; })) return false;
-  const Vec3d way = level(at(lowest->left) - at(leg));
-  return norm(way) > 0 && dot(way, front) < -kLeastFootCosine * norm(way);
+/// Per bone: whether it is `top` or hangs below it. Parents come before children.
+std::vector<bool> branch_of(const Skeleton& skeleton, Index top) {
+  std::vector<bool> is_in(skeleton.bones.size());
+  for (Index bone = 0; bone < is_in.size(); ++bone)
+    is_in[bone] =
+        bone == top || (skeleton.bones[bone].parent != kNone && is_in[skeleton.bones[bone].parent]);
+  return is_in;
+}
+
+/// Sum and number of the ways from a joint to the vertices that its branch moves most, and the
+/// longest of them.
+struct Ways {
+  Vec3d sum = Vec3d::Zero();
+  double count = 0, longest = 0;
+
+  void add(const Vec3d& way) {
+    sum += way;
+    ++count;
+    longest = std::max(longest, norm(way));
+  }
+};
+
+void add_ways(Ways& ways, const Character& character, const ModelPose& pose, Index joint) {
+  const std::vector<bool> is_in = branch_of(character.skeleton, joint);
+  const Vec3d from(pose.model_from_bone[joint].translation());
+  for (const Mesh& mesh : character.meshes) {
+    const Skin& skin = character.skins[mesh.skin];
+    for (Index vertex = 0; vertex < mesh.vertex_count(); ++vertex) {
+      const Influence& most = *std::ranges::max_element(
+          mesh.weights.of(vertex), {}, [](const Influence& influence) { return influence.weight; });
+      const Index bone = skin.bones[most.slot];
+      if (!is_in[bone]) continue;
+      const Affine3d model_from_bind =
+          pose.model_from_bone[bone] * skin.bone_from_bind[most.slot].cast<double>();
+      ways.add(Vec3d(model_from_bind * mesh.positions[vertex].cast<double>()) - from);
+    }
+  }
+}
+
+/// How far the feet reach to the front of their joints: in [-1, 1], of their length; 0 if there are
+/// none. Feet are what the lowest pairs of bones move, those of hands not counted; the bones
+/// themselves where no pair moves anything.
+double reach_of_feet(const Character& character, const ModelPose& pose, std::vector<BonePair> pairs,
+                     const Vec3d& front) {
+  if (pairs.empty()) return 0;
+  const auto at = [&](Index bone) { return Vec3d(pose.model_from_bone[bone].translation()); };
+  const auto height = [&](const BonePair& pair) { return at(pair.left).y(); };
+  std::ranges::stable_sort(pairs, {}, height);
+  const double sole = height(pairs.front());
+  const double ankle = sole + kFootHeight * (height(pairs.back()) - sole);
+  double reach = 0, feet = 0;
+  for (const BonePair& pair : pairs) {
+    // Pairs far below all others may be targets for inverse kinematics, which move nothing.
+    if (feet > 0 && height(pair) > ankle) break;
+    Ways ways;
+    add_ways(ways, character, pose, pair.left);
+    add_ways(ways, character, pose, pair.right);
+    if (!(ways.longest > 0)) continue;
+    reach += dot(Vec3d(ways.sum / ways.count), front) / ways.longest;
+    ++feet;
+  }
+  if (feet > 0) return reach / feet;
+  const Index foot = pairs.front().left, leg = character.skeleton.bones[foot].parent;
+  if (leg == kNone) return 0;
+  const Vec3d way = at(foot) - at(leg);
+  return norm(way) > 0 ? dot(way, front) / norm(way) : 0;
 }
 
 }  // namespace
@@ -68,21 +108,21 @@ bool are_feet_reversed(const Skeleton& skeleton, const ModelPose& pose,
 Result<Facing> facing_of(const Character& character) {
   const Result<ModelPose> pose = rest_pose(character);
   if (!pose) return pose.error();
-  const std::vector<Pair> pairs = pairs_of(character.skeleton);
-  Vec3d left = Vec3d::Zero();
-  double apart = 0;
-  for (const Pair& pair : pairs) {
-    const Vec3d way = pose->model_from_bone[pair.left].translation() -
-                      pose->model_from_bone[pair.right].translation();
-    left += way;
-    apart += norm(way);
-  }
+  BonePairs found = pairs_by_name(character, *pose);
+  if (found.pairs.size() < kLeastPairs || found.agreement < kLeastAgreement)
+    if (BonePairs placed = pairs_by_place(character, *pose); placed.pairs.size() >= kLeastPairs)
+      found = std::move(placed);
   Facing facing;
-  const Vec3d flat = level(left);
-  if (!(norm(flat) > 0)) return facing;
-  facing.direction = straightened((flat / norm(flat)).cross(Vec3d(0, 1, 0)));
-  facing.is_certain = pairs.size() >= kLeastPairs && norm(flat) >= kLeastAgreement * apart &&
-                      !are_feet_reversed(character.skeleton, *pose, pairs, facing.direction);
+  if (!(norm(found.left) > 0)) return facing;
+  Vec3d front = found.left.cross(Vec3d(0, 1, 0));
+  const double reach = reach_of_feet(character, *pose, found.pairs, front);
+  const bool is_ahead = reach >= kLeastReach, is_behind = reach <= -kLeastReach;
+  if (!found.is_side_known && is_behind) front = -front;
+  const bool has_front = found.is_side_known ? !is_behind : is_ahead || is_behind;
+  if (!found.is_side_known && !has_front) return facing;
+  facing.direction = straightened(front);
+  facing.is_certain =
+      found.pairs.size() >= kLeastPairs && found.agreement >= kLeastAgreement && has_front;
   return facing;
 }
 

@@ -478,5 +478,27 @@ TEST(AimedFiles, a_sever_that_would_miss_the_limb_is_refused_with_the_reason) {
   EXPECT_THAT(std::string(plain.error().text()), testing::HasSubstr("of what"));
 }
 
+/// Names are an oracle for the places of bones and for feet: without them a file is uncertain, or
+/// faces the same way.
+TEST(AimedFiles, face_the_same_way_without_the_names_of_their_bones) {
+  std::size_t certain = 0;
+  for (const std::filesystem::path& file :
+       test::rigged_models({".glb", ".gltf", ".fbx", ".dae", ".x", ".b3d"})) {
+    const auto loaded = load_character(file);
+    ASSERT_TRUE(loaded) << file;
+    Character character = *loaded->character;
+    const auto named = find_facing(character);
+    for (Index bone = 0; bone < character.skeleton.bones.size(); ++bone)
+      character.skeleton.bones[bone].name = "bone" + std::to_string(bone);
+    const auto nameless = find_facing(character);
+    ASSERT_TRUE(named && nameless) << file;
+    if (!named->is_certain || !nameless->is_certain) continue;
+    ++certain;
+    EXPECT_EQ(named->direction, nameless->direction) << file;
+  }
+  if (certain == 0) GTEST_SKIP() << "no shared models";
+  EXPECT_GE(certain, 5u);
+}
+
 }  // namespace
 }  // namespace sunder

@@ -35,9 +35,12 @@ struct Facing {
   bool is_certain = false;
 };
 
-/// Tells the front from the bones whose names differ in left and right. Certain if at least two
-/// pairs agree about the side and the feet do not point to the back; without pairs it is +z, as a
-/// glTF file has it.
+/// Tells the front from pairs of bones whose names differ in left and right, or whose places mirror
+/// each other; where no name tells the side, from the feet. Certain if at least two pairs agree and
+/// the feet do not point to the back; without pairs it is +z, as a glTF file has it.
+///
+/// O(vertices x pairs of feet + bones squared).
+///
 /// @return the failures of rest_pose().
 [[nodiscard]] SUNDER_API Result<Facing> find_facing(const Character& character);
 
