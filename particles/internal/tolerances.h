@@ -4,7 +4,7 @@ namespace sunder::particles {
 
 // Tolerances of the module, in one place. Each name ends with the unit or the base of its value:
 // "ranges" are those of the particle concerned, "reach" is a distance from a seed as a fraction of
-// the particle's range. docs/particles.md lists them.
+// the particle's range. docs/method/particles.md lists them.
 
 // ---- Coverage of the surface.
 

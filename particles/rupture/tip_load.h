@@ -18,7 +18,7 @@ struct TipLoad {
 /// and running on releases pi S |a|^2 / 4 per length (Griffith 1921, Irwin 1957), where the part of
 /// the vector a that would push the lips into one another does not count. The reciprocal
 /// theorem gives a from the displacements and the loads within some spacings of the small
-/// particles; see docs/particles.md.
+/// particles; see docs/method/particles.md.
 ///
 /// @param tips  ParticleSet::tips(). O(points of lips near tips + faces along the lines of
 /// TipDisc),

@@ -11,7 +11,7 @@
 namespace sunder::tear {
 
 /// Bounds how far weighted points can stray from their exact motion in any pose, with free joints:
-/// docs/certificate.md. A bound is infinity for a point without a certificate.
+/// docs/method/certificate.md. A bound is infinity for a point without a certificate.
 class RefitCertificate {
  public:
   /// Points without a certificate everywhere if the skeleton has none: bones that are singular at

@@ -1,4 +1,4 @@
-// One test per class of bad input, each with what a strict and a lenient reading do; docs/io.md has
+// One test per class of bad input, each with what a strict and a lenient reading do; docs/method/io.md has
 // the rules. Files are generated.
 
 #include <sunder/skinning/pose.h>

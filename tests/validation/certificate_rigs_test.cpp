@@ -1,5 +1,5 @@
 // Rigged files: weights cut to the top two against the original. How close poses come to what is
-// certified. The figures of docs/certificate.md are this program's output.
+// certified. The figures of docs/method/certificate.md are this program's output.
 
 #include <sunder/certificate/certificate.h>
 #include <sunder/io/character_file.h>

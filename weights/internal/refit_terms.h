@@ -7,7 +7,7 @@
 
 namespace sunder::weights {
 
-// Regularisation of a fit and the terms that both refits share; see docs/weights.md.
+// Regularisation of a fit and the terms that both refits share; see docs/method/weights.md.
 
 /// Cost of moving the bind position: this factor times the squared scale of the bones times the
 /// squared distance moved.
