@@ -35,7 +35,6 @@ class UndoneStructure {
       : structure_(structure),
         slabs_(structure.points.slabs),
         lips_(structure.points.lip_points),
-        vertices_(structure.vertex_points.of_mesh),
         counts_(structure.particles.size(), 0),
         is_changed_(structure.particles.size(), 0) {
     for (const Particle& particle : structure.particles) particles_.push_back(&particle);
@@ -62,9 +61,6 @@ class UndoneStructure {
       lips_[of->point] = of->lip;
       count(of->slab, 1);
     }
-    for (auto of = change.changed_vertices.rbegin(); of != change.changed_vertices.rend(); ++of)
-      vertices_[of->mesh][of->vertex] = of->point;
-    for (std::size_t m = 0; m < vertices_.size(); ++m) vertices_[m].resize(change.vertices[m]);
     std::vector<std::pair<Index, const Particle*>> newer;
     for (auto of = change.changed_particles.rbegin(); of != change.changed_particles.rend(); ++of) {
       if (is_changed_[of->first] == 0) newer.emplace_back(of->first, particles_[of->first]);
@@ -93,7 +89,6 @@ class UndoneStructure {
     };
     return are_same(slabs_, decomposition.points.slabs, is_same_slab) &&
            std::ranges::equal(particles_, decomposition.particles, is_same_particle) &&
-           vertices_ == decomposition.vertex_points.of_mesh &&
            std::ranges::all_of(
                lips_, [](const LipPoint& lip) { return lip.tear == kNone && lip.edge == kNone; });
   }
@@ -133,7 +128,6 @@ class UndoneStructure {
   const Structure& structure_;
   std::vector<MembershipSlab> slabs_;
   std::vector<LipPoint> lips_;
-  std::vector<std::vector<Index>> vertices_;  ///< Per mesh: VertexPoints::of_mesh.
   std::vector<const Particle*> particles_;
   std::vector<std::int64_t> counts_;      ///< Of members.
   std::vector<std::uint8_t> is_changed_;  ///< By the operation that is being undone.

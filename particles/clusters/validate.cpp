@@ -6,6 +6,7 @@
 #include "particles/clusters/band.h"
 #include "particles/clusters/check_history.h"
 #include "particles/clusters/check_sums.h"
+#include "particles/clusters/check_vertex_history.h"
 #include "particles/clusters/derive.h"
 #include "particles/clusters/lip_spacing.h"
 #include "particles/clusters/state_bounds.h"
@@ -365,6 +366,7 @@ Status validate(Structure& structure, const Structure& decomposition, const Torn
   if (!check.status()) return check.status();
   derive(structure, decomposition);
   if (Status status = check_history(structure, decomposition); !status) return status;
+  if (Status status = check_vertex_history(structure, decomposition, model); !status) return status;
   return check_sums(structure, model);
 }
 

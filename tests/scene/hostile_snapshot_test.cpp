@@ -113,6 +113,28 @@ TEST(hostile_snapshot, numbers_of_all_parts_are_checked) {
   RecordProperty("accepted", accepted);
 }
 
+/// An index that is replaced by another one that exists is the hardest to see: it may be wrong only
+/// before an earlier operation, that is, after undo.
+TEST(hostile_snapshot, indices_are_not_exchanged_for_others) {
+  const fuzz::SnapshotAssets assets = fuzz::make_snapshot_assets();
+  const Bytes good = value_of(fuzz::make_rich_scene(assets).save());
+  std::vector<std::size_t> places;
+  for (std::size_t at = 16; at + 4 <= good.size(); ++at) {
+    std::uint32_t number = 0;
+    std::memcpy(&number, &good[at], sizeof number);
+    if (number > 0 && number < 512) places.push_back(at);
+  }
+  ASSERT_GT(places.size(), 1000u);
+  const auto stride = static_cast<std::size_t>(7 / test::stressed(1, 7));
+  for (std::size_t i = 3; i < places.size(); i += stride) {
+    SCOPED_TRACE(places[i]);
+    Bytes bytes = good;
+    bytes[places[i]] ^= std::byte{0xF0};
+    (void)try_snapshot(fuzz::sealed(std::move(bytes)), assets, i);
+    if (HasFailure()) return;
+  }
+}
+
 TEST(hostile_snapshot, limits_name_what_was_found_and_what_is_allowed) {
   const fuzz::SnapshotAssets assets = fuzz::make_snapshot_assets();
   const Bytes bytes = value_of(fuzz::make_rich_scene(assets).save());
