@@ -140,6 +140,7 @@ struct DemoRequest {
 struct TransferRequest {
   std::filesystem::path source, target, output;
   TransferOptions options;  ///< But for what the files below say.
+  bool copies_clips = false;
   SaveOptions save;
   std::optional<MaximumError> maximum_error;  ///< As in TearRequest.
   std::optional<std::filesystem::path>

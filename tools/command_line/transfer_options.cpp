@@ -84,6 +84,8 @@ CLI::App* add_transfer(CLI::App& app, TransferRequest& request) {
   const CLI::Option* const output =
       verb->add_option("-o,--output", request.output, "The target with its new weights, GLB")
           ->type_name("FILE");
+  verb->add_flag("--clips", request.copies_clips,
+                 "Write the source's clips too, for bones that rest alike in both");
   verb->add_flag("--dry-run", request.options.dry_run, "Only match; write no model");
   add_match_rules(*verb, request.options);
   add_weight_rules(*verb, request);
