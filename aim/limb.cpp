@@ -2,8 +2,10 @@
 
 #include <sunder/aim/aim.h>
 
-#include <cmath>
 #include <cstdio>
+#include <string>
+
+#include "operation/internal/field_ranges.h"
 
 namespace sunder::aim {
 
@@ -11,10 +13,9 @@ Result<Limb> find_limb(const PosedSurface& surface, const LimbPlace& place) {
   const Skeleton& skeleton = surface.character().skeleton;
   const Result<Index> bone = find_bone(skeleton, place.bone);
   if (!bone) return bone.error();
-  if (!(place.at >= 0.0 && place.at <= 1.0))
-    return Status::failure(StatusCode::invalid_argument, *bone,
-                           "'%.60s' at %g: expected a share of the bone from 0 to 1",
-                           place.bone.c_str(), place.at);
+  if (const Status status = field::kShare.check(place.at); !status)
+    return Status::failure(status.code(), *bone, "'%.60s': %s", place.bone.c_str(),
+                           std::string(status.text()).c_str());
   const BoneTree tree(surface);
   const Result<BoneSegment> segment = bone_segment(surface, tree, *bone);
   if (!segment) return segment.error();
@@ -32,10 +33,21 @@ Limb limb_at(const Limb& limb, double at) {
   return other;
 }
 
-Status check_length(const AimedLength& length, const char* what) {
-  if (std::isfinite(length.value) && length.value > 0) return {};
-  return Status::failure(StatusCode::invalid_argument, kNone, "the %s is %g; expected above 0",
-                         what, length.value);
+Status check_length(const AimedLength& length, const NumberRange& range) {
+  if (length.unit == AimedLength::Unit::metres) return range.check(length.value);
+  NumberRange widths = field::kWidths;
+  widths.field = range.field;
+  return widths.check(length.value);
+}
+
+Status check_within_limb(const Limb& limb, const NumberRange& range, double value, double most,
+                         const char* size) {
+  constexpr double kRounding = 1e-6;
+  if (value <= most * (1 + kRounding)) return {};
+  return Status::failure(StatusCode::invalid_argument, limb.bones.bone(),
+                         "%s: %s is %.4g m; it must be at most %.4g m, as %s; lengths are in "
+                         "metres, or in widths of the limb",
+                         limb.label.c_str(), range.field, value, most, size);
 }
 
 }  // namespace sunder::aim

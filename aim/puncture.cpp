@@ -7,6 +7,7 @@
 #include "aim/limb_rays.h"
 #include "aim/operations.h"
 #include "core/internal/ordered.h"
+#include "operation/internal/field_ranges.h"
 
 namespace sunder::aim {
 namespace {
@@ -16,14 +17,13 @@ constexpr int kRaysPerRing = 16;
 constexpr double kFreeShare = 0.9;
 
 Status check(const Limb& limb, const PunctureOperation& puncture) {
-  if (const Status status = check_length(puncture.radius, "radius of the puncture"); !status)
-    return status;
+  if (const Status status = check_length(puncture.radius, field::kRadius); !status) return status;
   if (!puncture.depth) return {};
   if (puncture.is_through)
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "%s: a puncture through the limb has no depth of its own",
                            limb.label.c_str());
-  return check_length(*puncture.depth, "depth of the puncture");
+  return check_length(*puncture.depth, field::kDepth);
 }
 
 /// Places inside a circle of the plane of the view: its middle and three rings.
@@ -90,11 +90,12 @@ Result<Operation> resolve_puncture(const PosedSurface& surface, const PunctureOp
 
   LimbRays rays(*limb, *frame, *sections);
   const double width = rays.width(), radius = metres(puncture.radius, width);
-  if (radius > width)
-    return Status::failure(StatusCode::invalid_argument, limb->bones.bone(),
-                           "%s: the radius is %.4g m, but the limb is only %.4g m wide there; "
-                           "lengths are in metres, or in widths of the limb",
-                           limb->label.c_str(), radius, width);
+  if (const Status status =
+          check_within_limb(*limb, field::kRadius, radius, width, "the limb is not wider there");
+      !status)
+    return status;
+  if (const Status status = field::check_chord_tolerance(puncture.chord_tolerance, radius); !status)
+    return status;
   rays.look_around(radius + width);
   const std::vector<Vec3d> places = places_inside(*frame, radius);
   const std::optional<RayHit> middle = rays.cast_at_middle(), all = look_into(rays, places);
@@ -102,6 +103,12 @@ Result<Operation> resolve_puncture(const PosedSurface& surface, const PunctureOp
     return Status::failure(StatusCode::not_found, limb->bones.bone(),
                            "%s: the limb has no surface there that is seen from this side",
                            limb->label.c_str());
+  if (puncture.depth)
+    if (const Status status = check_within_limb(
+            *limb, field::kDepth, metres(*puncture.depth, width),
+            std::max(width, middle->near - middle->far), "the limb is not thicker there");
+        !status)
+      return status;
   const BoreEnds ends = ends_of(puncture, *middle, *all, width);
   if (std::any_of(places.begin(), places.end(), [&](const Vec3d& place) {
         return rays.meets_others(place, ends.end, ends.begin);

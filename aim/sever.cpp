@@ -9,14 +9,12 @@
 #include "aim/severing_sections.h"
 #include "aim/view.h"
 #include "core/internal/ordered.h"
+#include "operation/internal/field_ranges.h"
 
 namespace sunder::aim {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-/// A plane that leans more is nearly along the bone: 80 degrees.
-constexpr double kMostTilt = 80 * kPi / 180;
-
 /// A face lies in the plane if its corners are no farther from it than this share of the sections'
 /// length, and its normal leans by no more than 18 degrees: caps are flat only up to the error of
 /// their weights in the pose.
@@ -67,10 +65,7 @@ Vec3d place_on(const Section& section) {
 /// The bone's direction, leaning towards the view by the tilt.
 Result<Vec3d> normal_of(const Limb& limb, const SeverOperation& sever) {
   if (sever.tilt == 0) return limb.segment.direction();
-  if (!(std::abs(sever.tilt) <= kMostTilt))
-    return Status::failure(StatusCode::invalid_argument, kNone,
-                           "%s: the tilt is %g degrees; expected at most 80", limb.label.c_str(),
-                           sever.tilt * 180 / kPi);
+  if (const Status status = field::kTiltDegrees.check_degrees(sever.tilt); !status) return status;
   const Result<ViewFrame> frame = view_frame(limb, sever.from);
   if (!frame) return frame.error();
   return Vec3d(std::cos(sever.tilt) * frame->along + std::sin(sever.tilt) * frame->towards_viewer);

@@ -8,6 +8,7 @@
 #include "aim/limb_rays.h"
 #include "aim/operations.h"
 #include "core/internal/ordered.h"
+#include "operation/internal/field_ranges.h"
 
 namespace sunder::aim {
 namespace {
@@ -22,16 +23,11 @@ constexpr double kMostSteps = 128 * kBladesPerWidth;
 /// and by the width of the gap, whose sides lie deeper there.
 constexpr double kLeastDepthWidths = 0.02;
 
-Status check(const Limb& limb, const SlashOperation& slash) {
-  if (const Status status = check_length(slash.length, "length of the slash"); !status)
-    return status;
+Status check(const SlashOperation& slash) {
+  if (const Status status = check_length(slash.length, field::kLength); !status) return status;
   if (slash.depth)
-    if (const Status status = check_length(*slash.depth, "depth of the slash"); !status)
-      return status;
-  if (!std::isfinite(slash.turn))
-    return Status::failure(StatusCode::non_finite_value, kNone, "%s: the turn is not finite",
-                           limb.label.c_str());
-  return {};
+    if (const Status status = check_length(*slash.depth, field::kDepth); !status) return status;
+  return field::kTurnDegrees.check_degrees(slash.turn);
 }
 
 /// The rays of the blades that hit the limb, from the middle of the stroke to both sides without a
@@ -87,6 +83,48 @@ SeenStroke look_along(const LimbRays& rays, const Vec3d& way, double length) {
   return thinned(march(rays, *middle, step * way, half));
 }
 
+/// The options of the tear, all in metres.
+TearOptions options_in_metres(const SlashOperation& slash, double width) {
+  TearOptions options = slash.options;
+  const auto replace = [&](double& length, const std::optional<double>& widths) {
+    if (widths) length = *widths * width;
+  };
+  replace(options.width, slash.in_widths.width);
+  replace(options.wall_depth, slash.in_widths.wall_depth);
+  replace(options.lip_roll, slash.in_widths.lip_roll);
+  return options;
+}
+
+/// Refuses lengths beyond what was seen of the limb: a stroke that was meant in other units would
+/// silently become one to the outline, or through the whole limb.
+Status check_sizes(const Limb& limb, const SlashOperation& slash, const TearOptions& options,
+                   const SeenStroke& seen, double width) {
+  const double reach = 2 * std::max(norm(seen.offsets.front()), norm(seen.offsets.back()));
+  double thickness = 0;
+  for (const RayHit& hit : seen.hits) thickness = std::max(thickness, hit.near - hit.far);
+  const double most_deep = std::max(width, thickness);
+  const auto check_one = [&](const NumberRange& range, double value, double most,
+                             const char* size) {
+    return check_within_limb(limb, range, value, most, size);
+  };
+  if (const Status status = check_one(field::kLength, metres(slash.length, width),
+                                      std::max(width, reach), "the limb ends there");
+      !status)
+    return status;
+  if (slash.depth)
+    if (const Status status = check_one(field::kDepth, metres(*slash.depth, width), most_deep,
+                                        "the limb is not thicker there");
+        !status)
+      return status;
+  constexpr const char* kWide = "the limb is not wider there";
+  if (const Status status = check_one(field::kWidth, options.width, width, kWide); !status)
+    return status;
+  if (const Status status = check_one(field::kWallDepth, options.wall_depth, most_deep, kWide);
+      !status)
+    return status;
+  return check_one(field::kLipRoll, options.lip_roll, width, kWide);
+}
+
 /// Heights of a blade towards the viewer.
 struct BladeEnds {
   double base = 0, tip = 0;
@@ -94,9 +132,9 @@ struct BladeEnds {
 
 /// Blade `i` of a stroke. Where nothing is in the way, all blades begin at one height, and without
 /// a depth they all reach down to one: the gap that a straight row of blades leaves is even.
-BladeEnds ends_of(const SeenStroke& seen, std::size_t i, const SlashOperation& slash,
+BladeEnds ends_of(const SeenStroke& seen, std::size_t i, const SlashOperation& slash, double gap,
                   double width) {
-  const double least_depth = std::max(kLeastDepthWidths * width, slash.options.width);
+  const double least_depth = std::max(kLeastDepthWidths * width, gap);
   double highest = seen.hits[i].near, lowest = seen.hits[i].near;
   for (const RayHit& hit : seen.hits) {
     highest = std::max(highest, hit.near);
@@ -118,7 +156,7 @@ BladeEnds ends_of(const SeenStroke& seen, std::size_t i, const SlashOperation& s
 Result<Operation> resolve_slash(const PosedSurface& surface, const SlashOperation& slash) {
   const Result<Limb> limb = find_limb(surface, slash.place);
   if (!limb) return limb.error();
-  if (const Status status = check(*limb, slash); !status) return status;
+  if (const Status status = check(slash); !status) return status;
   const Result<ViewFrame> frame = view_frame(*limb, slash.from);
   if (!frame) return frame.error();
   const auto sections = limb_sections(*limb, {frame->along, dot(frame->along, limb->place)});
@@ -127,16 +165,18 @@ Result<Operation> resolve_slash(const PosedSurface& surface, const SlashOperatio
   LimbRays rays(*limb, *frame, *sections);
   const double width = rays.width(), length = metres(slash.length, width);
   rays.look_around(0.5 * length + width);
+  const TearOptions options = options_in_metres(slash, width);
   const SeenStroke seen = look_along(rays, frame->turned(slash.turn), length);
   if (seen.hits.size() < 2)
     return Status::failure(StatusCode::not_found, limb->bones.bone(),
                            "%s: the limb has no surface there that is seen from this side",
                            limb->label.c_str());
+  if (const Status status = check_sizes(*limb, slash, options, seen, width); !status) return status;
   TearOperation tear;
   tear.pose = slash.pose;
-  tear.options = slash.options;
+  tear.options = options;
   for (std::size_t i = 0; i < seen.hits.size(); ++i) {
-    const BladeEnds ends = ends_of(seen, i, slash, width);
+    const BladeEnds ends = ends_of(seen, i, slash, options.width, width);
     const Vec3d place = rays.middle() + seen.offsets[i];
     tear.stroke.push_back(
         {place + ends.base * frame->towards_viewer, place + ends.tip * frame->towards_viewer});

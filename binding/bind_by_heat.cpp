@@ -7,6 +7,7 @@
 #include "binding/attach.h"
 #include "binding/bone_segments.h"
 #include "binding/heat.h"
+#include "binding/internal/option_ranges.h"
 #include "binding/joined.h"
 #include "binding/limit_weights.h"
 #include "binding/welded_surface.h"
@@ -39,9 +40,7 @@ void list_bones_without_weight(const Skeleton& skeleton, std::vector<bool> is_mi
 
 Result<HeatBinding> heat_up(const Character& model, const Character& rig,
                             const HeatOptions& options) {
-  if (!(options.heat > 0) || !std::isfinite(options.heat))
-    return Status::failure(StatusCode::invalid_argument, kNone,
-                           "the heat is %g; expected a number above 0", options.heat);
+  if (const Status status = binding::kHeat.check(options.heat); !status) return status;
   const Result<binding::Joined> joined = binding::join(model, rig, options.place);
   if (!joined) return joined.error();
   const Result<std::vector<bool>> chosen = binding::choose_bones(rig, options.bones);

@@ -39,21 +39,22 @@ std::string write_text(std::span<const Operation> operations) {
 
 }  // namespace
 
-Result<std::vector<Operation>> parse_operations(std::string_view json) {
+Result<std::vector<Operation>> parse_operations(std::string_view json, const Character* model) {
   try {
     const Result<StrictJson> log = parse_strict_json(json);
     if (!log) return log.error();
-    return operation_log::read_log(*log);
+    return operation_log::read_log(*log, model);
   } catch (...) {
     return status_of_current_exception();
   }
 }
 
-Result<std::vector<LoggedOperation>> parse_aimed_operations(std::string_view json) {
+Result<std::vector<LoggedOperation>> parse_aimed_operations(std::string_view json,
+                                                            const Character* model) {
   try {
     const Result<StrictJson> log = parse_strict_json(json);
     if (!log) return log.error();
-    return operation_log::read_aimed_log(*log);
+    return operation_log::read_aimed_log(*log, model);
   } catch (...) {
     return status_of_current_exception();
   }

@@ -14,16 +14,18 @@ Result<std::string> read_log(const std::filesystem::path& file) {
 
 }  // namespace
 
-Result<std::vector<Operation>> load_operations(const std::filesystem::path& file) {
+Result<std::vector<Operation>> load_operations(const std::filesystem::path& file,
+                                               const Character* model) {
   const Result<std::string> text = read_log(file);
   if (!text) return text.error();
-  return parse_operations(*text);
+  return parse_operations(*text, model);
 }
 
-Result<std::vector<LoggedOperation>> load_aimed_operations(const std::filesystem::path& file) {
+Result<std::vector<LoggedOperation>> load_aimed_operations(const std::filesystem::path& file,
+                                                           const Character* model) {
   const Result<std::string> text = read_log(file);
   if (!text) return text.error();
-  return parse_aimed_operations(*text);
+  return parse_aimed_operations(*text, model);
 }
 
 Status save_operations(const std::filesystem::path& file, std::span<const Operation> operations) {

@@ -8,6 +8,7 @@
 #include "core/internal/or_throw.h"
 #include "core/internal/ordered.h"
 #include "core/internal/out_of_memory.h"
+#include "robot/internal/option_ranges.h"
 
 namespace sunder {
 namespace {
@@ -32,9 +33,9 @@ Status check(const RobotMotion& motion, const MountedBlade& blade, const Affine3
   if (blade.base == blade.tip)
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "base and tip of the blade are at one place");
-  if (!(options.spacing > 0) || !(options.seconds > 0))
-    return Status::failure(StatusCode::invalid_argument, kNone,
-                           "spacing %g m and %g s; expected numbers above 0", options.spacing,
+  if (const Status status = robot::kSpacing.check(options.spacing); !status) return status;
+  if (!(options.seconds > 0))  // infinity is the default
+    return Status::failure(StatusCode::invalid_argument, kNone, "seconds is %g; it must be above 0",
                            options.seconds);
   if (!(options.first_time <= options.last_time))
     return Status::failure(StatusCode::invalid_argument, kNone,
@@ -160,10 +161,10 @@ Result<TearOperation> tear_of_sweep(const BladeSweep& sweep, const PoseSpec& pos
     return Status::failure(StatusCode::size_mismatch, kNone, "%zu blades, %zu times",
                            sweep.blades.size(), sweep.times.size());
   const auto* const clip = std::get_if<ClipPose>(&pose);
-  if (!(speed >= 0) || !std::isfinite(speed) || (speed > 0 && clip == nullptr))
+  if (const Status status = robot::kClipSpeed.check(speed); !status) return status;
+  if (speed > 0 && clip == nullptr)
     return Status::failure(StatusCode::invalid_argument, kNone,
-                           "speed %g; expected 0, or a number above 0 with the pose of a clip",
-                           speed);
+                           "clip speed is %g, but the pose is none of a clip", speed);
   return or_out_of_memory([&]() -> Result<TearOperation> {
     TearOperation tear{pose, sweep.blades, {}, options};
     for (std::uint32_t i = 1; i < sweep.times.size() && speed > 0; ++i) {

@@ -2,23 +2,21 @@
 #include <sunder/skinning/pose.h>
 
 #include <algorithm>
+#include <optional>
 
+#include "core/internal/find_named.h"
 #include "core/internal/out_of_memory.h"
 
 namespace sunder {
 namespace {
 
-Result<Index> find_clip(const Character& character,
-                        const std::variant<std::string, Index>& wanted) {
+Result<Index> clip_of(const Character& character, const std::variant<std::string, Index>& wanted) {
+  if (const std::optional<Index> clip = find_named_clip(character, wanted)) return *clip;
   const std::size_t count = character.clips.size();
-  if (const Index* const index = std::get_if<Index>(&wanted)) {
-    if (*index < count) return *index;
+  if (const Index* const index = std::get_if<Index>(&wanted))
     return Status::failure(StatusCode::not_found, *index,
                            "clip %u does not exist; the model has %zu clips", *index, count);
-  }
   const std::string& name = std::get<std::string>(wanted);
-  for (Index i = 0; i < count; ++i)
-    if (character.clips[i].name == name) return i;
   return Status::failure(StatusCode::not_found, kNone,
                          "no clip is named '%.100s'; `sunder info` lists the model's %zu clips",
                          name.c_str(), count);
@@ -34,7 +32,7 @@ class ApplyTo {
     return {};
   }
   Status operator()(const ClipPose& spec) const {
-    const Result<Index> clip = find_clip(character_, spec.clip);
+    const Result<Index> clip = clip_of(character_, spec.clip);
     return clip ? sample_clip(character_.clips[*clip], spec.time, pose_) : clip.error();
   }
   Status operator()(const BonesPose& spec) const {

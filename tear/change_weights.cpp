@@ -8,6 +8,7 @@
 #include <new>
 
 #include "core/internal/out_of_memory.h"
+#include "operation/internal/field_ranges.h"
 #include "skinning/internal/character_pose.h"
 #include "tear/model/model_state.h"
 #include "tear/surface/weight_change.h"
@@ -29,10 +30,7 @@ Status TornModel::State::resolve(WeightsOperation& wanted) const {
         "weights are requested for %u operations from operation %u on; the model has %u operations",
         wanted.operation_count, wanted.first_operation, done);
   if (wanted.weights.policy != WeightPolicy::refit) return {};
-  if (!std::isfinite(wanted.refit.smoothness) || wanted.refit.smoothness < 0)
-    return Status::failure(StatusCode::invalid_argument, kNone,
-                           "the smoothness of a refit is %g; it must be finite and not below 0",
-                           wanted.refit.smoothness);
+  if (Status status = field::kSmoothness.check(wanted.refit.smoothness); !status) return status;
   if (wanted.refit.is_coupled && !has_coupled_refit())
     return refit_coupled({}, {}, {}, PoseMoments(1, Vec3d::Zero())).error();
   return {};

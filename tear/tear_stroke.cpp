@@ -6,6 +6,7 @@
 
 #include "core/internal/ordered.h"
 #include "core/internal/out_of_memory.h"
+#include "operation/internal/field_ranges.h"
 #include "skinning/internal/same_bits.h"
 #include "tear/geometry/tolerances.h"
 #include "tear/model/model_state.h"
@@ -24,15 +25,9 @@ bool same_bits(const ModelPose& a, const ModelPose& b) {
 }
 
 Status validate_sampling(const StrokeSampling& sampling) {
-  if (!(sampling.minimum_distance >= 0 && sampling.minimum_distance <= tear::kLongestMetres))
-    return Status::failure(StatusCode::invalid_argument, kNone,
-                           "minimum_distance is %g; it must be from 0 to 1e30",
-                           sampling.minimum_distance);
-  if (!(sampling.minimum_seconds >= 0 && sampling.minimum_seconds <= tear::kLongestSeconds))
-    return Status::failure(StatusCode::invalid_argument, kNone,
-                           "minimum_seconds is %g; it must be from 0 to 1e30",
-                           sampling.minimum_seconds);
-  return {};
+  if (Status status = field::kMinimumDistance.check(sampling.minimum_distance); !status)
+    return status;
+  return field::kMinimumSeconds.check(sampling.minimum_seconds);
 }
 
 /// The report of a stroke is the sum of its calls' reports, except the figures that are counted

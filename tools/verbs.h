@@ -65,6 +65,7 @@ struct TearRequest {
     bool has_share = false;
     std::optional<bool> detaches = {};  ///< Of a sever; empty: if pieces are written.
     bool takes_props = true;            ///< Whether separate parts come off with the limb.
+    std::string material = {};          ///< Name of the caps' or walls' material; empty: none.
   };
   std::filesystem::path model, operations;      ///< No log: empty.
   std::vector<Aimed> aimed;                     ///< In the order in which they were given.
@@ -118,6 +119,9 @@ struct PictureRequest {
   bool with_axes = false, with_grid = false, with_bones = false;
   std::optional<std::filesystem::path> operations;  ///< Drawn on the model, not applied.
   std::vector<std::string> joints;  ///< Of a robot, in place of `pose`; as pose_of_joints().
+  /// A robot beside the model, at the end of its trajectory or at rest; with the way of its blade
+  /// if a link is given.
+  std::optional<RobotTearRequest> robot;
   ModelReading reading;
   BudgetLimits budget;
 };
@@ -136,6 +140,7 @@ struct DemoRequest {
 struct TransferRequest {
   std::filesystem::path source, target, output;
   TransferOptions options;  ///< But for what the files below say.
+  bool copies_clips = false;
   SaveOptions save;
   std::optional<MaximumError> maximum_error;  ///< As in TearRequest.
   std::optional<std::filesystem::path>

@@ -26,6 +26,7 @@
 #include "validation/checks/skeleton_checks.h"
 #include "validation/checks/stored_checks.h"
 #include "validation/checks/support_checks.h"
+#include "validation/internal/option_ranges.h"
 #include "validation/match/skin_difference.h"
 
 namespace sunder {
@@ -333,13 +334,11 @@ Result<ValidationReport> validate_skin(const std::shared_ptr<const Character>& s
   using namespace validation;
   if (!source || !target)
     return Status::failure(StatusCode::empty_input, kNone, "validate_skin: no character");
-  for (const auto& [name, value] : {std::pair("maximum_deviation", options.maximum_deviation),
-                                    std::pair("error_deviation", options.error_deviation),
-                                    std::pair("random_angle", options.random_angle),
-                                    std::pair("clip_margin", options.clip_margin)})
-    if (!(std::isfinite(value) && value >= 0))
-      return Status::failure(StatusCode::invalid_argument, kNone,
-                             "%s is %g; it must be finite and not negative", name, value);
+  for (const auto& [range, value] :
+       {std::pair(kMaximumDeviation, options.maximum_deviation),
+        std::pair(kErrorDeviation, options.error_deviation),
+        std::pair(kRandomAngle, options.random_angle), std::pair(kClipMargin, options.clip_margin)})
+    if (const Status status = range.check(value); !status) return status;
   try {
     for (const auto* const character : {source.get(), target.get()})
       if (const Status status = validate_character(*character); !status) return status;

@@ -2,6 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
+
+#include "core/internal/find_named.h"
+#include "core/internal/nearest_names.h"
+#include "operation/internal/field_ranges.h"
 
 namespace sunder::operation_log {
 namespace {
@@ -18,6 +23,12 @@ bool is_number_up_to(const Json& value, double largest) {
          std::abs(value.get<double>()) <= largest;  // False for numbers that are not finite.
 }
 
+const char* text_of_largest(double largest) {
+  return largest == kLargest              ? "number beyond 1e9"
+         : largest == kLargestMatrixEntry ? "number beyond 1e30"
+                                          : "number beyond 1e60";
+}
+
 }  // namespace
 
 void Place::fail(StatusCode code, const std::string& text) const {
@@ -31,39 +42,39 @@ void Place::expected(const char* what) const {
 }
 
 Place Place::at(std::size_t index) const {
-  return {value[index], path + "/" + std::to_string(index), operation};
+  return {value[index], path + "/" + std::to_string(index), operation, model};
 }
 
 Place Place::at(const std::string& key) const {
   const auto found = value.find(key);
   if (found == value.end()) malformed("field '" + key + "' is missing");
-  return {*found, pointer_to(key), operation};
+  return {*found, pointer_to(key), operation, model};
 }
 
 std::string Place::pointer_to(const std::string& key) const { return path + "/" + escaped(key); }
 
 void Place::check_fields(std::initializer_list<std::string_view> known) const {
   if (!value.is_object()) expected("an object");
-  for (const auto& [key, unused] : value.items())
-    if (std::find(known.begin(), known.end(), key) == known.end())
-      malformed("unknown field '" + key + "'");
+  for (const auto& [key, unused] : value.items()) {
+    if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+    const std::vector<std::string> names(known.begin(), known.end());
+    const std::vector<std::string> near = nearest_names(key, names);
+    malformed("unknown field '" + key + "'" +
+              (near.empty() ? "" : "; did you mean " + listed_names(near) + "?"));
+  }
 }
 
 double read_number(const Place& place) {
   if (!place.value.is_number()) place.expected("a number");
-  if (!is_number_up_to(place.value, kLargest)) place.malformed("number beyond 1e9");
+  if (!is_number_up_to(place.value, kLargest)) place.malformed(text_of_largest(kLargest));
   return place.value.get<double>();
 }
 
-double read_number_at_least_zero(const Place& place) {
-  const double number = read_number(place);
-  if (number < 0.0) place.malformed("negative");
-  return number;
-}
-
-double read_number_above_zero(const Place& place) {
-  const double number = read_number(place);
-  if (!(number > 0.0)) place.malformed("not above 0");
+double NumberIn::operator()(const Place& place) const {
+  if (!place.value.is_number()) place.expected("a number");
+  const auto number = place.value.get<double>();
+  if (const Status status = range.check(number); !status)
+    place.malformed(std::string(status.text()));
   return number;
 }
 
@@ -88,7 +99,13 @@ std::uint32_t read_integer(const Place& place, const char* what, std::uint32_t l
 }
 
 std::uint32_t read_material(const Place& place) {
-  return read_integer(place, "the index of a material");
+  if (!place.value.is_string()) return read_integer(place, "the name or index of a material");
+  const std::string name = read_name(place);
+  if (place.model == nullptr)
+    place.malformed("'" + name + "' needs a model to be found in; without one, expected an index");
+  const Result<Index> material = find_material(*place.model, name);
+  if (!material) place.fail(material.error().code(), std::string(material.error().text()));
+  return *material;
 }
 
 const Json& read_array(const Place& place, const char* what) {
@@ -104,14 +121,19 @@ void read_numbers(const Place& place, std::span<double> numbers, double largest)
   // built for an error.
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     if (!array[i].is_number()) place.at(i).expected("a number");
-    if (!is_number_up_to(array[i], largest))
-      place.at(i).malformed(largest == kLargest ? "number beyond 1e9" : "number beyond 1e30");
+    if (!is_number_up_to(array[i], largest)) place.at(i).malformed(text_of_largest(largest));
     numbers[i] = array[i].get<double>();
   }
 }
 
+Vec3d read_point(const Place& place) {
+  Vec3d point;
+  read_numbers(place, {point.data(), 3}, kFarthestMetres);
+  return point;
+}
+
 Vec3d read_direction(const Place& place, const char* what) {
-  const Vec3d direction = read_vector<3>(place);
+  const Vec3d direction = read_point(place);
   if (direction == Vec3d::Zero()) place.malformed(std::string(what) + " of zero length");
   return direction;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <sunder/core/character.h>
 #include <sunder/core/math.h>
 #include <sunder/core/status.h>
 
@@ -9,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/internal/number_range.h"
 #include "io/internal/strict_json.h"
 
 namespace sunder::operation_log {
@@ -29,6 +31,7 @@ struct Place {
   const Json& value;
   std::string path;
   std::uint32_t operation = kNone;
+  const Character* model = nullptr;  ///< Whose materials may be named; null: none.
 
   [[noreturn]] void fail(StatusCode code, const std::string& text) const;
   [[noreturn]] void malformed(const std::string& text) const {
@@ -42,7 +45,7 @@ struct Place {
   template <class Visit>
   void for_each_field(const Visit& visit) const {
     for (const auto& [name, field] : value.items())
-      visit(name, Place{field, pointer_to(name), operation});
+      visit(name, Place{field, pointer_to(name), operation, model});
   }
   /// The JSON pointer to a field.
   [[nodiscard]] std::string pointer_to(const std::string& key) const;
@@ -53,18 +56,25 @@ struct Place {
 
 // Each function checks its value; on failure it throws a Fault that names the place.
 
+/// Any number up to kLargest.
 double read_number(const Place& place);
-double read_number_at_least_zero(const Place& place);
-double read_number_above_zero(const Place& place);
+/// Reads a number of a range.
+struct NumberIn {
+  NumberRange range;
+  double operator()(const Place& place) const;
+};
 bool read_bool(const Place& place);
 std::string read_name(const Place& place);
 /// An index or a count.
 /// @param what  its name, for the error text.
 std::uint32_t read_integer(const Place& place, const char* what, std::uint32_t least = 0,
                            std::uint32_t most = kNone - 1);
-/// The index of a material of the file.
+/// The index of a material of the file, or its name if the model has one material of that name.
 std::uint32_t read_material(const Place& place);
 const Json& read_array(const Place& place, const char* what);
+
+/// A place in model space, or a vector of any length, as operations accept it.
+Vec3d read_point(const Place& place);
 
 /// Reads all numbers of an array, which must have that length.
 void read_numbers(const Place& place, std::span<double> numbers, double largest = kLargest);

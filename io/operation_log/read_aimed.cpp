@@ -7,19 +7,19 @@
 #include "io/operation_log/read_operation.h"
 #include "io/operation_log/read_pose.h"
 #include "io/operation_log/read_weights.h"
+#include "operation/internal/field_ranges.h"
 #include "operation/internal/view_sides.h"
 
 namespace sunder::operation_log {
 namespace {
 
 /// Degrees, because people write these angles.
-double read_degrees(const Place& place) { return read_number(place) * std::numbers::pi / 180; }
-
-double read_share(const Place& place) {
-  const double share = read_number(place);
-  if (share < 0 || share > 1) place.malformed("expected a share from 0 to 1");
-  return share;
-}
+struct DegreesIn {
+  NumberRange range;
+  double operator()(const Place& place) const {
+    return NumberIn{range}(place)*std::numbers::pi / 180;
+  }
+};
 
 std::string read_bone(const Place& place) {
   std::string name = read_name(place);
@@ -27,12 +27,16 @@ std::string read_bone(const Place& place) {
   return name;
 }
 
-AimedLength read_length(const Place& place) {
-  if (place.value.is_number()) return {read_number_above_zero(place), AimedLength::Unit::metres};
-  if (!place.value.is_object()) place.expected("metres, or {\"widths\": …}");
-  place.check_fields({"widths"});
-  return {read_number_above_zero(place.at("widths")), AimedLength::Unit::widths};
-}
+/// Reads a length in metres, or in widths of the limb.
+struct LengthIn {
+  NumberRange range;  ///< Of metres.
+  AimedLength operator()(const Place& place) const {
+    if (place.value.is_number()) return {NumberIn{range}(place), AimedLength::Unit::metres};
+    if (!place.value.is_object()) place.expected("metres, or {\"widths\": …}");
+    place.check_fields({"widths"});
+    return {NumberIn{field::kWidths}(place.at("widths")), AimedLength::Unit::widths};
+  }
+};
 
 ViewSide read_side(const Place& place) {
   const std::string name = read_name(place);
@@ -56,14 +60,25 @@ void read_optional(const Place& place, const char* key, Read read, std::optional
   if (place.has(key)) value = read(place.at(key));
 }
 
-/// The fields that tears share.
+/// The fields that tears share, but for lengths.
 void read_tear_options(const Place& place, TearOptions& options) {
-  read_if_given(place, "width", read_number_at_least_zero, options.width);
   read_if_given(place, "layers", read_layers, options.layers);
-  read_if_given(place, "wall_depth", read_number_at_least_zero, options.wall_depth);
   read_if_given(place, "wall_material", read_material, options.wall_material);
-  read_if_given(place, "lip_roll", read_number_at_least_zero, options.lip_roll);
   read_if_given(place, "weights", read_weight_options, options.weights);
+}
+
+/// A length of the options of a slash, in metres or in widths of the limb.
+void read_slash_length(const Place& place, const NumberRange& range, double& in_metres,
+                       std::optional<double>& in_widths) {
+  if (!place.has(range.field)) return;
+  const Place field = place.at(range.field);
+  if (!field.value.is_object()) {
+    if (!field.value.is_number()) field.expected("metres, or {\"widths\": …}");
+    in_metres = NumberIn{range}(field);
+    return;
+  }
+  field.check_fields({"widths"});
+  in_widths = NumberIn{field::kWidthsFromZero}(field.at("widths"));
 }
 
 SlashOperation read_slash(const Place& place) {
@@ -72,12 +87,16 @@ SlashOperation read_slash(const Place& place) {
   SlashOperation slash;
   read_if_given(place, "pose", read_pose, slash.pose);
   slash.place.bone = read_bone(place.at("around"));
-  read_if_given(place, "at", read_share, slash.place.at);
+  read_if_given(place, "at", NumberIn{field::kShare}, slash.place.at);
   read_if_given(place, "from", read_view, slash.from);
-  read_if_given(place, "length", read_length, slash.length);
-  read_if_given(place, "turn", read_degrees, slash.turn);
-  read_optional(place, "depth", read_length, slash.depth);
+  read_if_given(place, "length", LengthIn{field::kLength}, slash.length);
+  read_if_given(place, "turn", DegreesIn{field::kTurnDegrees}, slash.turn);
+  read_optional(place, "depth", LengthIn{field::kDepth}, slash.depth);
   read_tear_options(place, slash.options);
+  TearOptions& options = slash.options;
+  read_slash_length(place, field::kWidth, options.width, slash.in_widths.width);
+  read_slash_length(place, field::kWallDepth, options.wall_depth, slash.in_widths.wall_depth);
+  read_slash_length(place, field::kLipRoll, options.lip_roll, slash.in_widths.lip_roll);
   return slash;
 }
 
@@ -87,8 +106,8 @@ SeverOperation read_sever(const Place& place) {
   SeverOperation sever;
   read_if_given(place, "pose", read_pose, sever.pose);
   sever.place.bone = read_bone(place.at("bone"));
-  read_if_given(place, "at", read_share, sever.place.at);
-  read_if_given(place, "tilt", read_degrees, sever.tilt);
+  read_if_given(place, "at", NumberIn{field::kShare}, sever.place.at);
+  read_if_given(place, "tilt", DegreesIn{field::kTiltDegrees}, sever.tilt);
   if (place.has("from") && !place.has("tilt"))
     place.at("from").malformed("without a tilt the direction has no meaning");
   read_if_given(place, "from", read_view, sever.from);
@@ -104,14 +123,15 @@ PunctureOperation read_puncture(const Place& place) {
   PunctureOperation puncture;
   read_if_given(place, "pose", read_pose, puncture.pose);
   puncture.place.bone = read_bone(place.at("around"));
-  read_if_given(place, "at", read_share, puncture.place.at);
+  read_if_given(place, "at", NumberIn{field::kShare}, puncture.place.at);
   read_if_given(place, "from", read_view, puncture.from);
-  read_if_given(place, "radius", read_length, puncture.radius);
+  read_if_given(place, "radius", LengthIn{field::kRadius}, puncture.radius);
   read_if_given(place, "through", read_bool, puncture.is_through);
-  read_optional(place, "depth", read_length, puncture.depth);
+  read_optional(place, "depth", LengthIn{field::kDepth}, puncture.depth);
   if (puncture.is_through && puncture.depth)
     place.at("depth").malformed("a puncture through the limb has no depth of its own");
-  read_if_given(place, "chord_tolerance", read_number_at_least_zero, puncture.chord_tolerance);
+  read_if_given(place, "chord_tolerance", NumberIn{field::length_from_zero("chord_tolerance")},
+                puncture.chord_tolerance);
   read_if_given(place, "wall", read_bool, puncture.wall);
   read_if_given(place, "wall_material", read_material, puncture.wall_material);
   read_if_given(place, "weights", read_weight_options, puncture.weights);
@@ -148,8 +168,11 @@ IncisionOperation read_incision(const Place& place) {
   if (count < 2) points.malformed("an incision needs at least two points");
   for (std::size_t i = 0; i < count; ++i)
     incision.points.push_back(read_surface_place(points.at(i)));
-  read_if_given(place, "depth", read_number_above_zero, incision.depth);
+  read_if_given(place, "depth", NumberIn{field::kDepth}, incision.depth);
   read_tear_options(place, incision.options);
+  read_if_given(place, "width", NumberIn{field::kWidth}, incision.options.width);
+  read_if_given(place, "wall_depth", NumberIn{field::kWallDepth}, incision.options.wall_depth);
+  read_if_given(place, "lip_roll", NumberIn{field::kLipRoll}, incision.options.lip_roll);
   return incision;
 }
 

@@ -6,6 +6,7 @@
 #include "io/operation_log/read_aimed.h"
 #include "io/operation_log/read_pose.h"
 #include "io/operation_log/read_weights.h"
+#include "operation/internal/field_ranges.h"
 
 namespace sunder::operation_log {
 namespace {
@@ -17,7 +18,7 @@ void read_stroke(const Place& place, TearOperation& tear) {
   for (std::uint32_t i = 0; i < count; ++i) {
     const Place blade = place.at(i);
     blade.check_fields({"base", "tip", "pose"});
-    tear.stroke.push_back({read_vector<3>(blade.at("base")), read_vector<3>(blade.at("tip"))});
+    tear.stroke.push_back({read_point(blade.at("base")), read_point(blade.at("tip"))});
     if (tear.stroke.back().base == tear.stroke.back().tip)
       blade.malformed("base and tip of a blade must differ");
     if (!blade.has("pose")) continue;
@@ -33,11 +34,11 @@ TearOperation read_tear(const Place& place) {
                       "weights", "stroke"});
   TearOperation tear;
   read_if_given(place, "pose", read_pose, tear.pose);
-  read_if_given(place, "width", read_number_at_least_zero, tear.options.width);
+  read_if_given(place, "width", NumberIn{field::kWidth}, tear.options.width);
   read_if_given(place, "layers", read_layers, tear.options.layers);
-  read_if_given(place, "wall_depth", read_number_at_least_zero, tear.options.wall_depth);
+  read_if_given(place, "wall_depth", NumberIn{field::kWallDepth}, tear.options.wall_depth);
   read_if_given(place, "wall_material", read_material, tear.options.wall_material);
-  read_if_given(place, "lip_roll", read_number_at_least_zero, tear.options.lip_roll);
+  read_if_given(place, "lip_roll", NumberIn{field::kLipRoll}, tear.options.lip_roll);
   read_if_given(place, "weights", read_weight_options, tear.options.weights);
   read_stroke(place.at("stroke"), tear);
   return tear;
@@ -48,7 +49,7 @@ std::vector<Vec3d> read_bounds(const Place& place) {
   if (count < 3) place.malformed("bounds need at least three corners");
   std::vector<Vec3d> corners;
   corners.reserve(count);
-  for (std::size_t i = 0; i < count; ++i) corners.push_back(read_vector<3>(place.at(i)));
+  for (std::size_t i = 0; i < count; ++i) corners.push_back(read_point(place.at(i)));
   return corners;
 }
 
@@ -57,13 +58,13 @@ std::vector<Vec3d> read_sections(const Place& place) {
   if (count == 0) place.malformed("sections need at least one place; without them all are cut");
   std::vector<Vec3d> places;
   places.reserve(count);
-  for (std::size_t i = 0; i < count; ++i) places.push_back(read_vector<3>(place.at(i)));
+  for (std::size_t i = 0; i < count; ++i) places.push_back(read_point(place.at(i)));
   return places;
 }
 
 std::optional<SectionRay> read_ray(const Place& place) {
   place.check_fields({"origin", "direction"});
-  return SectionRay{read_vector<3>(place.at("origin")),
+  return SectionRay{read_point(place.at("origin")),
                     read_direction(place.at("direction"), "direction")};
 }
 
@@ -80,7 +81,7 @@ CutOperation read_cut(const Place& place) {
   read_if_given(place, "pose", read_pose, operation.pose);
   const Place plane = place.at("plane");
   plane.check_fields({"point", "normal"});
-  operation.cut.point = read_vector<3>(plane.at("point"));
+  operation.cut.point = read_point(plane.at("point"));
   operation.cut.normal = read_direction(plane.at("normal"), "normal");
   read_if_given(place, "bounds", read_bounds, operation.cut.bounds);
   read_if_given(place, "caps", read_bool, operation.cut.caps);
@@ -92,6 +93,15 @@ CutOperation read_cut(const Place& place) {
   return operation;
 }
 
+/// Reads the chord tolerance of a bore of that radius.
+struct ChordTolerance {
+  double radius;
+  double operator()(const Place& place) const {
+    if (place.value.is_number() && place.value.get<double>() == 0) return 0;
+    return NumberIn{field::chord_tolerance(radius)}(place);
+  }
+};
+
 DrillOperation read_drill(const Place& place) {
   place.check_fields({"op", "pose", "axis", "radius", "depth", "chord_tolerance", "wall",
                       "wall_material", "weights"});
@@ -100,11 +110,11 @@ DrillOperation read_drill(const Place& place) {
   read_if_given(place, "pose", read_pose, operation.pose);
   const Place axis = place.at("axis");
   axis.check_fields({"origin", "direction"});
-  bore.origin = read_vector<3>(axis.at("origin"));
+  bore.origin = read_point(axis.at("origin"));
   bore.direction = read_direction(axis.at("direction"), "direction");
-  bore.radius = read_number_above_zero(place.at("radius"));
-  bore.depth = read_number_above_zero(place.at("depth"));
-  read_if_given(place, "chord_tolerance", read_number_at_least_zero, bore.chord_tolerance);
+  bore.radius = NumberIn{field::kRadius}(place.at("radius"));
+  bore.depth = NumberIn{field::kDepth}(place.at("depth"));
+  read_if_given(place, "chord_tolerance", ChordTolerance{bore.radius}, bore.chord_tolerance);
   read_if_given(place, "wall", read_bool, bore.wall);
   read_if_given(place, "wall_material", read_material, bore.wall_material);
   read_if_given(place, "weights", read_weight_options, bore.weights);
@@ -115,7 +125,7 @@ PiecePlace read_piece(const Place& place) {
   if (!place.value.is_object()) place.expected("an object");
   if (place.has("near")) {
     place.check_fields({"near", "bone"});
-    PieceNear piece{read_vector<3>(place.at("near"))};
+    PieceNear piece{read_point(place.at("near"))};
     read_if_given(place, "bone", read_name, piece.bone);
     return piece;
   }
@@ -173,8 +183,8 @@ LoggedOperation read_logged_operation(const Place& place) {
 
 /// Reads all entries of a log. @param read  reads one.
 template <class Read>
-auto read_entries(const Json& log, Read read) {
-  const Place root{log, ""};
+auto read_entries(const Json& log, const Character* model, Read read) {
+  const Place root{log, "", kNone, model};
   if (!log.is_object()) root.expected("an object");
   // The version is checked first, so that a log of another version is reported as such.
   const Place version = root.at("sunder_operations");
@@ -206,10 +216,12 @@ Layers read_layers(const Place& place) {
   return Layers::nearest;
 }
 
-std::vector<Operation> read_log(const Json& log) { return read_entries(log, read_operation); }
+std::vector<Operation> read_log(const Json& log, const Character* model) {
+  return read_entries(log, model, read_operation);
+}
 
-std::vector<LoggedOperation> read_aimed_log(const Json& log) {
-  return read_entries(log, read_logged_operation);
+std::vector<LoggedOperation> read_aimed_log(const Json& log, const Character* model) {
+  return read_entries(log, model, read_logged_operation);
 }
 
 }  // namespace sunder::operation_log

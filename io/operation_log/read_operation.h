@@ -9,10 +9,11 @@
 namespace sunder::operation_log {
 
 /// All operations of a log, none of them aimed. Throws a Fault.
-std::vector<Operation> read_log(const Json& log);
+/// @param model  whose materials may be named; null: none.
+std::vector<Operation> read_log(const Json& log, const Character* model);
 
 /// All operations of a log. Throws a Fault.
-std::vector<LoggedOperation> read_aimed_log(const Json& log);
+std::vector<LoggedOperation> read_aimed_log(const Json& log, const Character* model);
 
 /// The field "layers" of a tear. Throws a Fault.
 Layers read_layers(const Place& place);

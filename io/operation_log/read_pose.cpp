@@ -3,6 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "operation/internal/field_ranges.h"
+
 namespace sunder::operation_log {
 namespace {
 
@@ -19,7 +21,7 @@ ClipPose read_clip_pose(const Place& place) {
   } else {
     clip.expected("a clip's name or index");
   }
-  pose.time = read_number_at_least_zero(place.at("time"));
+  pose.time = NumberIn{field::kTime}(place.at("time"));
   return pose;
 }
 

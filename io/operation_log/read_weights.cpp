@@ -1,6 +1,7 @@
 #include "io/operation_log/read_weights.h"
 
 #include "io/operation_log/read_pose.h"
+#include "operation/internal/field_ranges.h"
 
 namespace sunder::operation_log {
 namespace {
@@ -54,24 +55,24 @@ PoseSetSpec read_pose_set(const Place& place) {
 
 RefitImportance::OfClip read_importance_of_clip(const Place& place) {
   place.check_fields({"clip", "factor"});
-  return {read_name(place.at("clip")), read_number_at_least_zero(place.at("factor"))};
+  return {read_name(place.at("clip")), NumberIn{field::importance("factor")}(place.at("factor"))};
 }
 
 RefitImportance read_importance(const Place& place) {
   place.check_fields({"clips", "of_clip", "range_of_motion", "poses"});
   RefitImportance importance;
-  read_if_given(place, "clips", read_number_at_least_zero, importance.clips);
+  read_if_given(place, "clips", NumberIn{field::importance("clips")}, importance.clips);
   read_if_given(place, "of_clip", read_list<RefitImportance::OfClip, read_importance_of_clip>,
                 importance.of_clip);
-  read_if_given(place, "range_of_motion", read_number_at_least_zero, importance.range_of_motion);
-  read_if_given(place, "poses", read_number_at_least_zero, importance.poses);
+  read_if_given(place, "range_of_motion", NumberIn{field::importance("range_of_motion")},
+                importance.range_of_motion);
+  read_if_given(place, "poses", NumberIn{field::importance("poses")}, importance.poses);
   return importance;
 }
 
 double read_bound(const Place& place) {
-  const double bound = read_number_at_least_zero(place);
-  if (bound > 0 && bound < 1) place.malformed("expected a factor of at least 1, or 0");
-  return bound;
+  if (place.value.is_number() && place.value.get<double>() == 0) return 0;
+  return NumberIn{field::kBound}(place);
 }
 
 RefitOptions read_refit(const Place& place) {
@@ -82,7 +83,7 @@ RefitOptions read_refit(const Place& place) {
   read_if_given(place, "bound", read_bound, refit.bound);
   read_if_given(place, "moves_bind", read_bool, refit.moves_bind);
   read_if_given(place, "coupled", read_bool, refit.is_coupled);
-  read_if_given(place, "smoothness", read_number_at_least_zero, refit.smoothness);
+  read_if_given(place, "smoothness", NumberIn{field::kSmoothness}, refit.smoothness);
   return refit;
 }
 

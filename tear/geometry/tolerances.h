@@ -1,5 +1,7 @@
 #pragma once
 
+#include "operation/internal/field_ranges.h"
+
 namespace sunder::tear {
 
 // Tolerances of the module, in one place. Each name ends with the unit or the base of its value:
@@ -19,16 +21,13 @@ namespace sunder::tear {
 
 // ---- Input.
 
-/// Blades, planes and bores lie within it: products of four coordinates stay finite.
-inline constexpr double kFarthestMetres = 1e60;
-/// Widths, depths, radii and distances of samples: their products with coordinates stay finite.
-inline constexpr double kLongestMetres = 1e30;
-inline constexpr double kLongestSeconds = 1e30;
-/// A shorter blade, radius or depth is none: products of lengths do not underflow.
-inline constexpr double kShortestMetres = 1e-30;
-/// The same for vectors that only give a direction, whatever their length.
+// What logs and the command accept too stands with the ranges of their fields.
+using sunder::kFarthestMetres;
+using sunder::kLongestMetres;
+using sunder::kLongestSeconds;
+using sunder::kShortestMetres;
+/// As kShortestMetres, for vectors that only give a direction, whatever their length.
 inline constexpr double kShortestDirection = 1e-30;
-static_assert(kShortestMetres < kLongestMetres && kLongestMetres < kFarthestMetres);
 /// Corners of a polygon may lie outside its sides by less: it still counts as convex.
 inline constexpr double kConvexSizes = 1e-9;
 

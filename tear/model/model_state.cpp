@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/internal/ordered.h"
+#include "operation/internal/field_ranges.h"
 #include "tear/detached/released_vertices.h"
 #include "tear/geometry/tolerances.h"
 #include "tear/model/growth.h"
@@ -232,16 +233,9 @@ Status validate_weights(const WeightOptions& options) {
 }
 
 Status validate_options(const TearOptions& options) {
-  const auto is_length = [](double value) { return value >= 0 && value <= tear::kLongestMetres; };
-  if (!is_length(options.width))
-    return Status::failure(StatusCode::invalid_argument, kNone,
-                           "the width of the gap is %g; it must be from 0 to 1e30", options.width);
-  if (!is_length(options.wall_depth))
-    return Status::failure(StatusCode::invalid_argument, kNone,
-                           "the wall depth is %g; it must be from 0 to 1e30", options.wall_depth);
-  if (!is_length(options.lip_roll))
-    return Status::failure(StatusCode::invalid_argument, kNone,
-                           "the lip roll is %g; it must be from 0 to 1e30", options.lip_roll);
+  if (Status status = field::kWidth.check(options.width); !status) return status;
+  if (Status status = field::kWallDepth.check(options.wall_depth); !status) return status;
+  if (Status status = field::kLipRoll.check(options.lip_roll); !status) return status;
   if (options.weights)
     if (Status status = validate_weights(*options.weights); !status) return status;
   if (options.layers != Layers::nearest && options.layers != Layers::all)

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/internal/ordered.h"
+#include "operation/internal/field_ranges.h"
 #include "tear/filling/bore_wall.h"
 #include "tear/geometry/tolerances.h"
 #include "tear/path/crack_points.h"
@@ -14,8 +15,6 @@ namespace sunder::tear {
 namespace {
 
 constexpr std::size_t kMostSides = 1536;
-/// Relative to the radius, as 1536 sides reach: 1 - cos(pi / 1536) = 2.1e-6.
-constexpr double kLeastChordTolerance = 2.5e-6;
 /// Radius of the prism's core, by the distance of its sides from the axis.
 constexpr double kCoreRadii = 0.999;
 
@@ -83,22 +82,9 @@ Status validate_bore(const Bore& bore) {
   if (!(norm(bore.direction) > kShortestDirection))
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "the direction of the bore has no length");
-  if (!(bore.radius > kShortestMetres && bore.radius <= kLongestMetres))
-    return Status::failure(StatusCode::invalid_argument, kNone,
-                           "the radius of the bore is %g; it must be above 0 and at most 1e30",
-                           bore.radius);
-  if (!(bore.depth > kShortestMetres && bore.depth <= kLongestMetres))
-    return Status::failure(StatusCode::invalid_argument, kNone,
-                           "the depth of the bore is %g; it must be above 0 and at most 1e30",
-                           bore.depth);
-  const double least = kLeastChordTolerance * bore.radius;
-  if (bore.chord_tolerance != 0 &&
-      !(bore.chord_tolerance >= least && bore.chord_tolerance <= bore.radius))
-    return Status::failure(StatusCode::invalid_argument, kNone,
-                           "the chord tolerance is %g; it must be 0, or from %g (%g of the radius) "
-                           "to the radius",
-                           bore.chord_tolerance, least, kLeastChordTolerance);
-  return {};
+  if (Status status = field::kRadius.check(bore.radius); !status) return status;
+  if (Status status = field::kDepth.check(bore.depth); !status) return status;
+  return field::check_chord_tolerance(bore.chord_tolerance, bore.radius);
 }
 
 namespace {

@@ -6,7 +6,9 @@
 #include <random>
 #include <utility>
 
+#include "core/internal/find_named.h"
 #include "core/internal/ordered.h"
+#include "operation/internal/field_ranges.h"
 
 namespace sunder::tear {
 namespace {
@@ -29,9 +31,9 @@ bool counts_motion(const RefitOptions& options) {
   return options.poses.range_of_motion || !options.poses.joint_limits.empty();
 }
 
-double factor_of(const RefitImportance& importance, const Clip& clip) {
+double factor_of(const RefitImportance& importance, const Character& character, Index clip) {
   for (const RefitImportance::OfClip& of : importance.of_clip)
-    if (of.clip == clip.name) return of.factor;
+    if (find_clip(character, of.clip) == clip) return of.factor;
   return 1;
 }
 
@@ -39,8 +41,8 @@ double factor_of(const RefitImportance& importance, const Clip& clip) {
 std::vector<double> importance_of_clips(const Character& character, const RefitOptions& options) {
   std::vector<double> of_clips;
   double sum = 0;
-  for (const Clip& clip : character.clips)
-    sum += of_clips.emplace_back(factor_of(options.importance, clip));
+  for (Index clip = 0; clip < character.clips.size(); ++clip)
+    sum += of_clips.emplace_back(factor_of(options.importance, character, clip));
   const double all = options.poses.clip_samples > 0 ? options.importance.clips : 0.0;
   for (double& of_clip : of_clips) of_clip = sum > 0 ? all * of_clip / sum : 0.0;
   return of_clips;
@@ -92,27 +94,21 @@ Quatd random_turn(std::uint32_t bone, const std::vector<JointLimit>& limits, Ran
 
 Status RefitPoses::check(const Character& character, const RefitOptions& options) {
   if (const Status status = PoseSet::check(character, options.poses); !status) return status;
-  if (!(options.bound == 0 || options.bound >= 1) || !std::isfinite(options.bound))
-    return Status::failure(StatusCode::invalid_argument, kNone,
-                           "the bound of a refit is %g; it must be 0 or a factor of at least 1",
-                           options.bound);
+  if (options.bound != 0)
+    if (const Status status = field::kBound.check(options.bound); !status) return status;
   const RefitImportance& importance = options.importance;
-  const auto is_valid = [](double number) { return std::isfinite(number) && number >= 0; };
-  for (const auto& [name, number] : {std::pair("clips", importance.clips),
-                                     std::pair("the range of motion", importance.range_of_motion),
-                                     std::pair("the given poses", importance.poses)})
-    if (!is_valid(number))
-      return Status::failure(StatusCode::invalid_argument, kNone,
-                             "the importance of %s is %g; it must be finite and not below 0", name,
-                             number);
+  for (const auto& [name, number] :
+       {std::pair("importance of clips", importance.clips),
+        std::pair("importance of the range of motion", importance.range_of_motion),
+        std::pair("importance of the given poses", importance.poses)})
+    if (const Status status = field::importance(name).check(number); !status) return status;
   for (const RefitImportance::OfClip& of : importance.of_clip) {
-    if (!is_valid(of.factor))
-      return Status::failure(StatusCode::invalid_argument, kNone,
-                             "the importance of clip '%.80s' is %g; it must be finite and not "
-                             "below 0",
-                             of.clip.c_str(), of.factor);
-    if (std::none_of(character.clips.begin(), character.clips.end(),
-                     [&](const Clip& clip) { return clip.name == of.clip; }))
+    if (const Status status =
+            field::importance(("importance of clip '" + of.clip.substr(0, 80) + "'").c_str())
+                .check(of.factor);
+        !status)
+      return status;
+    if (!find_clip(character, of.clip))
       return Status::failure(StatusCode::not_found, kNone,
                              "an importance is given for clip '%.80s', which does not exist",
                              of.clip.c_str());

@@ -36,9 +36,10 @@ double any_number(Random& random, double largest = 1e9) {
   }
 }
 
+/// A length that an operation accepts: not below 1e-30.
 double any_above_zero(Random& random) {
   const double number = std::abs(any_number(random));
-  return number > 0.0 ? number : 0.125;
+  return number > 1e-30 ? number : 0.125;
 }
 
 double any_at_least_zero(Random& random) { return std::abs(any_number(random)); }
@@ -155,9 +156,11 @@ CutOperation any_cut(Random& random) {
 }
 
 DrillOperation any_drill(Random& random) {
+  const double radius = any_above_zero(random);
   return {any_pose(random),
-          {any_point(random), any_direction(random), any_above_zero(random), any_above_zero(random),
-           any_at_least_zero(random), random.index(2) == 0, any_weights_if_any(random)}};
+          {any_point(random), any_direction(random), radius, any_above_zero(random),
+           random.index(2) == 0 ? 0.0 : random.uniform(1e-5, 1) * radius, random.index(2) == 0,
+           any_weights_if_any(random)}};
 }
 
 DetachOperation any_detach(Random& random) {
@@ -181,7 +184,7 @@ RefitOptions any_refit(Random& random) {
       any_at_least_zero(random), {}, any_at_least_zero(random), any_at_least_zero(random)};
   for (std::uint32_t i = random.index(3); i > 0; --i)
     refit.importance.of_clip.push_back({"clip \"" + std::to_string(i), any_at_least_zero(random)});
-  refit.bound = random.index(2) == 0 ? 0.0 : 1 + any_at_least_zero(random);
+  refit.bound = random.index(2) == 0 ? 0.0 : std::min(1e9, 1 + any_at_least_zero(random));
   refit.moves_bind = random.index(2) == 0;
   refit.is_coupled = random.index(2) == 0;
   refit.smoothness = any_at_least_zero(random);

@@ -3,6 +3,8 @@
 #include <sunder/io/operation_log.h>
 #include <sunder/tear/torn_model.h>
 
+#include <functional>
+#include <limits>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -107,6 +109,82 @@ TEST(LoggedDefaults, of_a_model_are_in_the_log_of_its_operations) {
   EXPECT_EQ(std::get<TearOperation>(read->at(0)).options.weights,
             (WeightOptions{WeightPolicy::exact, 0}));
   expect_the_same(played(tube, *read), model);
+}
+
+/// One number of an operation.
+struct NumberOf {
+  const char* name;
+  std::function<Operation(double)> operation;
+};
+
+std::vector<NumberOf> numbers_of_operations() {
+  const auto tear_with = [](std::function<void(TearOperation&, double)> set) {
+    return [set](double value) {
+      TearOperation tear = bent_tear(0.3, {});
+      tear.pose = RestPose{};
+      set(tear, value);
+      return Operation(tear);
+    };
+  };
+  const auto bore_with = [](std::function<void(Bore&, double)> set) {
+    return [set](double value) {
+      DrillOperation drill;
+      drill.bore.origin = Vec3d(0, 0.5, 2);
+      drill.bore.radius = 0.05;
+      drill.bore.depth = 1;
+      set(drill.bore, value);
+      return Operation(drill);
+    };
+  };
+  const auto cut_with = [](std::function<void(PlaneCut&, double)> set) {
+    return [set](double value) {
+      CutOperation cut;
+      cut.cut.point = Vec3d(0, 0.5, 0);
+      cut.cut.normal = Vec3d(0, 1, 0);
+      set(cut.cut, value);
+      return Operation(cut);
+    };
+  };
+  return {
+      {"width", tear_with([](TearOperation& of, double value) { of.options.width = value; })},
+      {"wall_depth",
+       tear_with([](TearOperation& of, double value) { of.options.wall_depth = value; })},
+      {"lip_roll", tear_with([](TearOperation& of, double value) { of.options.lip_roll = value; })},
+      {"blade", tear_with([](TearOperation& of, double value) {
+         for (Blade& blade : of.stroke) blade.base.x() = blade.tip.x() = value;
+       })},
+      {"radius", bore_with([](Bore& bore, double value) { bore.radius = value; })},
+      {"depth", bore_with([](Bore& bore, double value) { bore.depth = value; })},
+      {"chord_tolerance",
+       bore_with([](Bore& bore, double value) { bore.chord_tolerance = value; })},
+      {"origin", bore_with([](Bore& bore, double value) { bore.origin.x() = value; })},
+      {"point", cut_with([](PlaneCut& cut, double value) { cut.point.x() = value; })},
+      {"section",
+       cut_with([](PlaneCut& cut, double value) { cut.sections = {Vec3d(0, value, 0)}; })}};
+}
+
+/// A number that one of both refuses could be torn with, but not saved, or the other way round.
+TEST(NumbersOfOperations, are_taken_by_the_log_where_the_model_takes_them) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  for (const NumberOf& number : numbers_of_operations())
+    for (const double value :
+         {0.0,     -0.0,  1e-320,    1e-40,      1e-31,
+          1e-20,   1e-6,  0.04,      0.06,       1.0,
+          1e8,     2e9,   1e12,      1e29,       9e29,
+          1.1e30,  1e45,  9e59,      1.1e60,     1e300,
+          -1e-320, -0.01, -1.0,      -2e9,       -1e31,
+          -9e59,   -1e61, kInfinity, -kInfinity, std::numeric_limits<double>::quiet_NaN()}) {
+      // What is not above zero is not written: there is no rim.
+      if (std::string(number.name) == "lip_roll" && !(value > 0)) continue;
+      const Operation operation = number.operation(value);
+      TornModel model = test::make_model(test::make_tube(9, 10, 3));
+      const auto report = apply_operation(model, operation);
+      const std::string text = *format_operations({&operation, 1});
+      const auto read = parse_operations(text);
+      EXPECT_EQ(static_cast<bool>(report), static_cast<bool>(read))
+          << number.name << " " << value << ": " << (report ? "" : report.error().text()) << "; "
+          << (read ? "" : read.error().text());
+    }
 }
 
 }  // namespace

@@ -295,5 +295,80 @@ TEST(OperationLog, DocumentedExamplesAreRead) {
             std::variant_size_v<Operation> + std::variant_size_v<AimedOperation>);
 }
 
+/// The fields of operations, by the lists that the reader checks them against.
+std::set<std::set<std::string>> fields_of_operations() {
+  std::set<std::set<std::string>> all;
+  for (const char* const name : {"read_operation.cpp", "read_aimed.cpp", "read_weights.cpp"}) {
+    std::ifstream source(std::filesystem::path(SUNDER_SOURCE_DIR) / "io" / "operation_log" / name);
+    const std::string text{std::istreambuf_iterator<char>(source), {}};
+    for (std::size_t at = text.find("check_fields("); at != std::string::npos;
+         at = text.find("check_fields(", at + 1)) {
+      std::set<std::string> fields;
+      const std::string list = text.substr(at, text.find(')', at) - at);
+      for (std::size_t begin = list.find('"'); begin != std::string::npos;) {
+        const std::size_t end = list.find('"', begin + 1);
+        fields.insert(list.substr(begin + 1, end - begin - 1));
+        begin = list.find('"', end + 1);
+      }
+      if (fields.contains("op")) all.insert(fields);
+    }
+  }
+  return all;
+}
+
+TEST(OperationLog, TheSchemaHasTheFieldsThatAreRead) {
+  std::ifstream file(std::filesystem::path(SUNDER_SOURCE_DIR) / "docs/operation_log.schema.json");
+  const nlohmann::json schema = nlohmann::json::parse(file);
+  std::set<std::set<std::string>> in_schema;
+  for (const auto& [name, of] : schema["$defs"].items()) {
+    std::set<std::string> fields;
+    if (of.contains("properties"))
+      for (const auto& [field, unused] : of["properties"].items()) fields.insert(field);
+    if (fields.contains("op")) in_schema.insert(fields);
+  }
+  EXPECT_GT(in_schema.size(), 8u);
+  EXPECT_EQ(in_schema, fields_of_operations());
+}
+
+Character with_materials() {
+  Character character;
+  character.meshes.resize(1);
+  character.meshes[0].submeshes = {{"Skin", 2}, {"Flesh", 4}};
+  return character;
+}
+
+TEST(OperationLog, NamesMaterialsOfAModel) {
+  const Character model = with_materials();
+  const std::string log = log_text_of(R"({"op": "tear", "wall_material": "Flesh",
+      "stroke": [{"base": [0,0,1], "tip": [0,0,0]}, {"base": [1,0,1], "tip": [1,0,0]}]},
+      {"op": "cut", "plane": {"point": [0,0,0], "normal": [0,1,0]}, "cap_material": "Skin"},
+      {"op": "drill", "axis": {"origin": [0,0,1], "direction": [0,0,-1]}, "radius": 1, "depth": 2,
+       "wall_material": "Flesh"})");
+  const auto named = parse_operations(log, &model);
+  ASSERT_TRUE(named) << named.error().text();
+  EXPECT_EQ(std::get<TearOperation>((*named)[0]).options.wall_material, 4u);
+  EXPECT_EQ(std::get<CutOperation>((*named)[1]).cut.cap_material, 2u);
+  EXPECT_EQ(std::get<DrillOperation>((*named)[2]).bore.wall_material, 4u);
+  const auto without = parse_operations(log);
+  ASSERT_FALSE(without);
+  EXPECT_NE(without.error().text().find("/operations/0/wall_material: 'Flesh' needs a model"),
+            std::string_view::npos)
+      << without.error().text();
+  const auto unknown = parse_aimed_operations(
+      log_text_of(R"({"op": "sever", "bone": "Arm", "cap_material": "Fles"})"), &model);
+  ASSERT_FALSE(unknown);
+  EXPECT_EQ(unknown.error().code(), StatusCode::not_found);
+  EXPECT_NE(unknown.error().text().find("did you mean 'Flesh'?"), std::string_view::npos)
+      << unknown.error().text();
+}
+
+TEST(OperationLog, IndicesOfMaterialsMeanTheSameWithAModel) {
+  const Character model = with_materials();
+  const std::string log = log_text_of(R"({"op": "cut", "cap_material": 9,
+      "plane": {"point": [0,0,0], "normal": [0,1,0]}})");
+  for (const Character* const of : {static_cast<const Character*>(nullptr), &model})
+    EXPECT_EQ(std::get<CutOperation>(parse_operations(log, of)->front()).cut.cap_material, 9u);
+}
+
 }  // namespace
 }  // namespace sunder

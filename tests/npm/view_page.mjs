@@ -119,7 +119,8 @@ async function testTools(page) {
   const tear = [await clickAt(page, 0.5, 0.42), await clickAt(page, 0.51, 0.5), await clickAt(page, 0.49, 0.6)];
   facts.pending = await page.evaluate(() => sunder.placing.clicks.length);
   await page.keyboard.press('Enter');
-  facts.tear = { rays: tear, time: await pose(page), saved: await save(page, 'tear.json') };
+  facts.tear = { rays: tear, time: await pose(page), opened: await page.evaluate(() => sunder.opened),
+    saved: await save(page, 'tear.json') };
   facts.changed_by_overlays = await changedBy(page, () => page.keyboard.press('o'));
   await page.keyboard.press('o');
 
@@ -127,7 +128,7 @@ async function testTools(page) {
   await seek(page, 1.3);
   await page.keyboard.press('3');
   const cut = [await clickAt(page, 0.475, 0.55), await clickAt(page, 0.525, 0.52)];
-  facts.cut = { rays: cut, time: await pose(page), saved: await save(page, 'cut.json') };
+  facts.cut = { rays: cut, time: await pose(page), opened: await page.evaluate(() => sunder.opened), saved: await save(page, 'cut.json') };
 
   await removeAll(page);
   await page.select('#setting-by', 'points');
@@ -140,6 +141,29 @@ async function testTools(page) {
   await seek(page, 0.4);
   const bore = [await clickAt(page, 0.5, 0.5)];
   facts.drill = { rays: bore, time: await pose(page), saved: await save(page, 'drill.json') };
+}
+
+/** What is aimed at limbs, and incisions; with the segments that the page previews for each. */
+async function testAimedTools(page) {
+  const preview = () => page.evaluate(() => sunder.opened);
+  await chooseClip(page, 0);
+  await seek(page, 0.8);
+  for (const what of ['slash', 'sever', 'puncture']) {
+    await removeAll(page);
+    await page.keyboard.press('5');
+    await page.select('#setting-what', what);
+    const rays = [await clickAt(page, 0.5, 0.4)];
+    facts[what] = { rays, time: await pose(page), opened: await preview(), saved: await save(page, `${what}.json`) };
+  }
+  await removeAll(page);
+  await page.keyboard.press('6');
+  const rays = [await clickAt(page, 0.5, 0.45), await clickAt(page, 0.505, 0.55)];
+  facts.pending_preview = (await preview()).length;
+  await page.keyboard.press('Enter');
+  facts.incision = { rays, time: await pose(page), opened: await preview(), saved: await save(page, 'incision.json') };
+  await removeAll(page);
+  facts.without_operations = (await preview()).length;
+  await page.keyboard.press('4');
 }
 
 async function testPosesOfTools(page) {
@@ -213,6 +237,7 @@ async function testPlacing() {
   facts.bytes = await page.evaluate(() => document.documentElement.outerHTML.length);
   await testClips(page);
   await testTools(page);
+  await testAimedTools(page);
   await testPosesOfTools(page);
   await testUndo(page);
   await testBones(page);

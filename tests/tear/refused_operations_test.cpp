@@ -61,8 +61,8 @@ Refusal tear(const char* name, StatusCode code, std::function<void(TearOperation
           }};
 }
 
-Refusal sampled(const char* name, StrokeSampling sampling) {
-  return {name, StatusCode::invalid_argument, [sampling](TornModel& model, const ModelPose& pose) {
+Refusal sampled(const char* name, StatusCode code, StrokeSampling sampling) {
+  return {name, code, [sampling](TornModel& model, const ModelPose& pose) {
             return TearStroke::create(model, pose, down_at(0.3, 0.3), {}, sampling).error();
           }};
 }
@@ -107,7 +107,7 @@ std::vector<Refusal> refusals() {
       drill("direction_of_nan", kNotFinite, [](Bore& b) { b.direction.x() = kNan; }),
       drill("far_origin", kInvalid, [](Bore& b) { b.origin.x() = kFar; }),
       drill("far_direction", kInvalid, [](Bore& b) { b.direction.x() = -kFar; }),
-      drill("radius_of_nan", kInvalid, [](Bore& b) { b.radius = kNan; }),
+      drill("radius_of_nan", kNotFinite, [](Bore& b) { b.radius = kNan; }),
       drill("huge_depth", kInvalid, [](Bore& b) { b.depth = 1e31; }),
       drill("negative_chord_tolerance", kInvalid, [](Bore& b) { b.chord_tolerance = -0.01; }),
       drill("chords_finer_than_1536_sides", kInvalid, [](Bore& b) { b.chord_tolerance = 1e-300; }),
@@ -130,10 +130,11 @@ std::vector<Refusal> refusals() {
              t.options.weights.emplace().policy = WeightPolicy::exact;
              t.options.weights->maximum_influences = 4;
            }),
-      sampled("negative_distance_of_blades", {-1, 0}),
-      sampled("distance_of_blades_of_nan", {kNan, 0}),
-      sampled("negative_time_between_blades", {0, -1}),
-      sampled("endless_time_between_blades", {0, std::numeric_limits<double>::infinity()})};
+      sampled("negative_distance_of_blades", kInvalid, {-1, 0}),
+      sampled("distance_of_blades_of_nan", kNotFinite, {kNan, 0}),
+      sampled("negative_time_between_blades", kInvalid, {0, -1}),
+      sampled("endless_time_between_blades", kNotFinite,
+              {0, std::numeric_limits<double>::infinity()})};
 }
 
 INSTANTIATE_TEST_SUITE_P(contract, RefusedOperation, testing::ValuesIn(refusals()),

@@ -4,6 +4,8 @@
 namespace sunder::command_test {
 namespace {
 
+using testing::AllOf;
+
 class AimedCommand : public CactusSuite {
  protected:
   static CommandResult tear(const std::vector<std::string>& more) {
@@ -64,6 +66,93 @@ TEST_F(AimedCommand, lengths_have_units_shares_per_cent_and_materials_indices) {
             result_of("Trunk2@0.25,wall_depth=1 cm,wall_material=1", "Trunk3@0.5,cap_material=0"));
   EXPECT_NE(plain,
             result_of("Trunk2@0.25,wall_depth=0.01,wall_material=0", "Trunk3@0.5,cap_material=1"));
+  EXPECT_EQ(plain, result_of("Trunk2@0.25,wall_depth=0.01,wall_material=Flower",
+                             "Trunk3@0.5,cap_material=Flesh"));
+}
+
+TEST_F(AimedCommand, every_length_may_be_in_widths_of_the_limb_and_angles_in_degrees) {
+  const auto log_of = [](const std::string& slash) {
+    const CommandResult result = tear({"--slash", slash, "--save-log", path("w.json"), "--force"});
+    EXPECT_EQ(result.exit_code, 0) << slash << result.err;
+    return read_json("w.json")["operations"][0];
+  };
+  EXPECT_EQ(log_of("Trunk3@0.5,length=50%,turn=30deg"), log_of("Trunk3@0.5,length=0.5w,turn=30"));
+  EXPECT_EQ(log_of("Trunk3@0.5,depth=20%"), log_of("Trunk3@0.5,depth=0.2w"));
+  const json log = log_of("Trunk3@0.5,width=2%,wall_depth=0.1w,lip_roll=0.01w");
+  // One is a fifth of the other, whatever the limb's width is.
+  EXPECT_NEAR(log["width"].get<double>(), 0.2 * log["wall_depth"].get<double>(), 1e-9);
+  EXPECT_NEAR(log["lip_roll"].get<double>(), 0.1 * log["wall_depth"].get<double>(), 1e-9);
+  EXPECT_EQ(log_of("Trunk3@0.5,width=10mm"), log_of("Trunk3@0.5,width=1 cm"));
+}
+
+TEST_F(AimedCommand, logs_name_materials_as_info_prints_them) {
+  const auto torn = [](const std::string& material) {
+    const std::string log = write("materials.json", R"({"sunder_operations": 1, "operations": [
+      {"op": "sever", "bone": "Trunk3", "at": 0.5, "cap_material": )" +
+                                                        material +
+                                                        R"(},
+      {"op": "slash", "around": "Trunk2", "at": 0.5, "wall_depth": 0.01, "wall_material": )" +
+                                                        material + "}]}");
+    return tear({"--ops", log});
+  };
+  const CommandResult by_index = torn("1");
+  ASSERT_EQ(by_index.exit_code, 0) << by_index.err;
+  const auto expected = bytes("aimed.glb");
+  const CommandResult by_name = torn("\"Flower\"");
+  ASSERT_EQ(by_name.exit_code, 0) << by_name.err;
+  EXPECT_EQ(bytes("aimed.glb"), expected);
+  const CommandResult unknown = torn("\"Flowre\"");
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("materials.json: /operations/0/cap_material: the model has no "
+                                     "material 'Flowre'; did you mean 'Flower'?"));
+  const CommandResult absent = torn("99");
+  EXPECT_EQ(absent.exit_code, 2);
+  EXPECT_THAT(absent.err, HasSubstr("/operations/0: cap_material is 99; it must be from 0 to 3"));
+}
+
+TEST_F(AimedCommand, sizes_beyond_the_limb_are_refused_with_the_range) {
+  const auto refusal = [](const std::string& option, const std::string& text) {
+    const CommandResult result = tear({option, text});
+    EXPECT_EQ(result.exit_code, 2) << text;
+    return result.err;
+  };
+  for (const char* const field : {"length", "depth", "width", "wall_depth", "lip_roll"}) {
+    const std::string name = field;
+    EXPECT_THAT(refusal("--slash", "Trunk3@0.5," + name + "=20"),
+                AllOf(HasSubstr(name + " is 20 m; it must be at most "), HasSubstr("limb")));
+    EXPECT_THAT(refusal("--slash", "Trunk3," + name + "=20"), HasSubstr(name + " is 20 m"))
+        << "no other share is tried";
+    EXPECT_THAT(refusal("--slash", "Trunk3@0.5," + name + "=-1"),
+                HasSubstr(name + " is -1 m; it must be "));
+    for (const char* const odd : {"nan", "inf", "3kg", ""})
+      EXPECT_THAT(refusal("--slash", "Trunk3@0.5," + name + "=" + odd),
+                  HasSubstr(name + ": '" + odd + "' is no number; expected one, with m, cm, mm"));
+    EXPECT_THAT(refusal("--slash", "Trunk3@0.5," + name + "=1e31"),
+                HasSubstr(name + " is 1e+31 m; it must be "));
+  }
+  for (const char* const field : {"radius", "depth"})
+    EXPECT_THAT(refusal("--puncture", std::string("Trunk3@0.5,") + field + "=20"),
+                HasSubstr(std::string(field) + " is 20 m; it must be at most "));
+  EXPECT_THAT(refusal("--puncture", "Trunk3@0.5,radius=0.02,chord_tolerance=1e-300"),
+              HasSubstr("chord_tolerance is 1e-300 m; it must be from 5e-08 to 0.02 m, or 0"));
+  EXPECT_FALSE(exists("aimed.glb.tmp"));
+}
+
+/// Clips in logs are found without their namespace, as those of --pose.
+TEST_F(AimedCommand, logs_name_clips_without_their_namespace) {
+  Character cactus = tools::make_cactus();
+  cactus.clips[0].name = "Rig|Sway";
+  ASSERT_TRUE(save_glb(path("spaced.glb"), cactus));
+  const auto torn = [&](const char* clip) {
+    const std::string log = write("clip.json", std::string(R"({"sunder_operations": 1,
+      "operations": [{"op": "cut", "plane": {"point": [0, 1, 0], "normal": [0, 1, 0]}, "pose": {"clip": ")") +
+                                                   clip + R"(", "time": 0.8}}]})");
+    const CommandResult result =
+        run_sunder({"tear", path("spaced.glb"), "--ops", log, "-o", path("spaced_torn.glb")});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return bytes("spaced_torn.glb");
+  };
+  EXPECT_EQ(torn("Sway"), torn("Rig|Sway"));
 }
 
 TEST_F(AimedCommand, faults_name_the_option) {
@@ -75,8 +164,10 @@ TEST_F(AimedCommand, faults_name_the_option) {
   };
   expect_refusal({}, "--ops (or --slash");
   expect_refusal({"--pose", "rest"}, "--pose: needs --slash");
-  expect_refusal({"--slash", "Trunk3@0.5,lenght=1"}, "unknown field 'lenght'");
-  expect_refusal({"--slash", "Trunk3@1.5"}, "--slash Trunk3@1.5: at: expected a share");
+  expect_refusal({"--slash", "Trunk3@0.5,lenght=1"},
+                 "unknown field 'lenght'; did you mean 'length'?");
+  expect_refusal({"--slash", "Trunk3@1.5"},
+                 "--slash Trunk3@1.5: at is 1.5; it must be from 0 to 1");
   expect_refusal({"--slash", "Trunk3@0.5,turn=1,turn=2"}, "'turn' is given twice");
   expect_refusal({"--slash", "Trunk3@0.5,from=above"}, "unknown side 'above'");
   expect_refusal({"--sever", "Trunc3@0.5"},
@@ -86,15 +177,15 @@ TEST_F(AimedCommand, faults_name_the_option) {
     expect_refusal({"--sever", "Trunk3@0.5", "--pose", pose},
                    "is no pose; expected rest, bind or CLIP@TIME");
   expect_refusal({"--sever", "Trunk3@0.5,pose=bind"}, "'pose' is no field; give it as --pose");
-  expect_refusal({"--slash", "Trunk3@0.5,turn=nan"}, "turn: expected a number, found string");
-  expect_refusal({"--slash", "Trunk3@0.5,turn=10mm"}, "turn: expected a number, found string");
-  expect_refusal({"--slash", "Trunk3@150%"}, "--slash Trunk3@150%: at: expected a share");
+  expect_refusal({"--slash", "Trunk3@0.5,turn=nan"},
+                 "turn: 'nan' is no number; expected one, with or without deg behind it");
+  expect_refusal({"--slash", "Trunk3@0.5,turn=10mm"}, "turn: '10mm' is no number");
+  expect_refusal({"--slash", "Trunk3@150%"},
+                 "--slash Trunk3@150%: at is 1.5; it must be from 0 to 1");
   expect_refusal({"--sever", "Trunk3@0.5,cap_material=leaf"},
-                 "cap_material: expected the index of a material");
+                 "--sever Trunk3@0.5,cap_material=leaf: the model has no material 'leaf'");
   expect_refusal({"--slash", "Trunk3@0.5,wall_depth=1mm,wall_material=99"},
-                 "material 99 does not exist; the source has");
-  expect_refusal({"--slash", "Trunk3@0.5,width=0.2w"},
-                 "width: '0.2w': expected metres; only length, depth and radius may be in widths");
+                 "wall_material is 99; it must be from 0 to 3");
 }
 
 /// Clips are found without their namespace: such a clip is no reason for another failure.

@@ -8,6 +8,8 @@
 namespace sunder::command_test {
 namespace {
 
+using testing::AllOf;
+
 class RobotTear : public CactusSuite {
  protected:
   static std::string of_docs(const std::string& name) {
@@ -63,6 +65,83 @@ TEST_F(RobotTear, an_arm_that_stands_elsewhere_misses) {
   const CommandResult result = tear({"--robot-place", "3,0,0.95,0,90,0", "-o", path("m.glb")});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.err, HasSubstr("tear missed"));
+}
+
+/// The miss says by which way the blade passed; moved by it and a little more, it tears.
+TEST_F(RobotTear, a_miss_says_which_way_to_move_the_robot) {
+  for (const Vec3d place : {Vec3d(0, 0, 1.6), Vec3d(1.5, 0, 0.95), Vec3d(0, 3, 0.95)}) {
+    const auto tear_at = [&](const Vec3d& at) {
+      std::string text;
+      for (int k = 0; k < 3; ++k) text += std::to_string(at[k]) + ",";
+      return tear({"--robot-place", text + "0,90,0", "--pose", "Sway@0.2", "--clip-speed", "1",
+                   "--dry-run", "--report", path("miss.json"), "--force"});
+    };
+    const CommandResult missed = tear_at(place);
+    EXPECT_EQ(missed.exit_code, 1) << missed.err;
+    EXPECT_THAT(missed.err, HasSubstr(" to --robot-place"));
+    EXPECT_THAT(missed.err, HasSubstr(" s of the motion"));
+    const json miss = read_json("miss.json")["operations"][0]["miss"];
+    Vec3d way;
+    for (int k = 0; k < 3; ++k) way[k] = miss["way"][static_cast<std::size_t>(k)];
+    EXPECT_NEAR(way.norm(), miss["distance"].get<double>(), 1e-6);
+    const CommandResult moved = tear_at(place + way + 0.04 * way.normalized());
+    EXPECT_EQ(read_json("miss.json")["operations"][0]["status"], "torn") << moved.err;
+  }
+}
+
+TEST_F(RobotTear, lengths_of_the_blade_and_the_place_have_units) {
+  const auto length = [&](std::vector<std::string> more) {
+    more.insert(more.end(), {"--dry-run", "--report", "-"});
+    const CommandResult result = tear(more);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return json::parse(result.out)["operations"][0]["length_posed"].get<double>();
+  };
+  const double expected = length({"--robot-place", "0,0,0.95,0,90,0", "--spacing", "0.002"});
+  EXPECT_EQ(expected, length({"--robot-place", "0,0,95cm,0,90deg,0", "--spacing", "2mm"}));
+}
+
+TEST_F(RobotTear, numbers_out_of_range_are_refused_with_the_range) {
+  const auto err = [&](const char* option, const char* value) {
+    const CommandResult result = tear(placed({option, value, "-o", path("no.glb")}));
+    EXPECT_EQ(result.exit_code, 2) << option << value;
+    return result.err;
+  };
+  for (const char* const value : {"nan", "inf", "-1", "0", "1e300", "1e-300"})
+    EXPECT_THAT(err("--spacing", value),
+                AllOf(HasSubstr("--spacing: spacing is "), HasSubstr("from 1e-09 to 1e+09 m")));
+  for (const char* const value : {"nan", "inf", "-1", "1e300"})
+    EXPECT_THAT(err("--clip-speed", value), HasSubstr("it must be from 0 to 1e+06"));
+  EXPECT_THAT(err("--spacing", "3kg"), HasSubstr("'3kg' is no number; expected one from 1e-09"));
+  for (const char* const value : {"nan,0,0", "inf,0,0", "1e300,0,0", "0,0"})
+    EXPECT_THAT(err("--robot-place", value), HasSubstr("expected x,y,z[,roll,pitch,yaw]"));
+  EXPECT_FALSE(exists("no.glb"));
+}
+
+/// The picture has what the robot adds to that of the model alone, and where the blade goes.
+TEST_F(RobotTear, a_picture_shows_the_robot_and_the_way_of_its_blade) {
+  const auto picture = [&](const std::string& name, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"picture",  model(),  "-o",
+                                          path(name), "--size", "160x120"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const CommandResult result = run_sunder(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return bytes(name);
+  };
+  const std::vector<std::string> robot = {"--robot", of_docs("arm.urdf"), "--robot-place",
+                                          "0,0,0.95,0,90,0"};
+  const auto alone = picture("alone.png", {});
+  const auto at_rest = picture("rest.png", robot);
+  EXPECT_NE(at_rest, alone);
+  auto moved = robot;
+  moved.insert(moved.end(), {"--trajectory", of_docs("arm.csv")});
+  const auto at_end = picture("end.png", moved);
+  EXPECT_NE(at_end, at_rest);
+  moved.insert(moved.end(), {"--blade", "scalpel", "--edge", "0,0,0,0.16,0,0", "--pose", "rest"});
+  EXPECT_NE(picture("way.png", moved), at_end);
+  const CommandResult no_motion = run_sunder({"picture", model(), "-o", path("no.png"), "--robot",
+                                              of_docs("arm.urdf"), "--blade", "scalpel"});
+  EXPECT_EQ(no_motion.exit_code, 2);
+  EXPECT_THAT(no_motion.err, HasSubstr("--trajectory (with --robot)"));
 }
 
 TEST_F(RobotTear, exceeded_limits_are_warnings) {

@@ -347,6 +347,32 @@ TEST_F(TearMessages, more_influences_than_the_source_has_are_warned_of) {
   EXPECT_THAT(tear(log, {"--influences", "4"}).err, Not(HasSubstr("warning")));
 }
 
+/// What was just written passes `sunder validate` without warnings, or writing it said why not.
+TEST_F(TearMessages, a_file_that_validate_warns_of_is_announced) {
+  for (const std::vector<std::string>& options :
+       std::vector<std::vector<std::string>>{{},
+                                             {"--open"},
+                                             {"--open=baked"},
+                                             {"--influences", "4"},
+                                             {"--weights-as", "u8"},
+                                             {"--weights-as", "u16"},
+                                             {"--max-error", "2cm"},
+                                             {"--weights", "pose_exact"}}) {
+    std::vector<std::string> arguments = {"tear",       model(), "--slash",
+                                          "Trunk3@0.5", "-o",    path("announced.glb")};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const CommandResult torn = run_sunder(arguments);
+    ASSERT_EQ(torn.exit_code, 0) << torn.err;
+    const CommandResult valid = run_sunder({"validate", model(), path("announced.glb")});
+    const bool passes = valid.out.find(": 0 errors, 0 warnings") != std::string::npos;
+    const bool is_announced = torn.err.find("`sunder validate`") != std::string::npos;
+    EXPECT_TRUE(passes || is_announced)
+        << (options.empty() ? "plain" : options[0]) << valid.out << torn.err;
+    if (options.empty()) EXPECT_TRUE(passes && !is_announced) << valid.out << torn.err;
+    EXPECT_THAT(valid.out, testing::ContainsRegex("verdict +(PASS|FAIL): .* worst deviation"));
+  }
+}
+
 TEST_F(TearMessages, no_output_overwrites_an_input) {
   namespace fs = std::filesystem;
   const std::string log = write("one.json", kOneTear);

@@ -1,10 +1,12 @@
 // `sunder transfer` from the outside: exit codes, words, JSON, and what it leaves on disk.
 
+#include <sunder/skinning/pose.h>
 #include <sunder/validation/transfer.h>
 
 #include <algorithm>
 
 #include "support/machine/gltf_validator.h"
+#include "support/models/rigs.h"
 #include "tools/command_fixture.h"
 
 namespace sunder::command_test {
@@ -98,6 +100,62 @@ TEST_F(TransferCommand, a_skinned_target_keeps_its_document) {
   EXPECT_EQ(same.clips, before.clips);
   for (const Mesh& mesh : same.meshes)
     for (Index v = 0; v < mesh.vertex_count(); ++v) EXPECT_LE(mesh.weights.of(v).size(), 2u);
+}
+
+TEST_F(TransferCommand, the_clips_of_the_source_are_offered_and_written_on_request) {
+  const CommandResult without =
+      run_sunder({"transfer", source(), stiff(), "-o", path("without.glb")});
+  ASSERT_EQ(without.exit_code, 0) << without.err;
+  EXPECT_THAT(without.out, HasSubstr("the source has 1 clips"));
+  EXPECT_THAT(without.out, HasSubstr("--clips writes them too"));
+  EXPECT_TRUE(load("without.glb").clips.empty());
+  const CommandResult with =
+      run_sunder({"transfer", source(), stiff(), "--clips", "-o", path("with.glb")});
+  ASSERT_EQ(with.exit_code, 0) << with.err;
+  const Character moving = load("with.glb"), truth = load("source.glb");
+  ASSERT_EQ(moving.clips.size(), truth.clips.size());
+  EXPECT_EQ(moving.clips[0].name, truth.clips[0].name);
+  // Every vertex goes where the source's goes.
+  for (const double time : {0.0, 0.7, 1.4}) {
+    const ModelPose pose = *make_pose(moving, ClipPose{0u, time}),
+                    of_truth = *make_pose(truth, ClipPose{0u, time});
+    for (Index m = 0; m < moving.meshes.size(); ++m) {
+      const auto same =
+          std::ranges::find(truth.meshes, moving.meshes[m].vertex_count(), &Mesh::vertex_count);
+      ASSERT_NE(same, truth.meshes.end());
+      const auto found = test::posed_positions(moving, m, pose);
+      const auto expected =
+          test::posed_positions(truth, static_cast<Index>(same - truth.meshes.begin()), of_truth);
+      for (std::size_t v = 0; v < found.size(); ++v)
+        ASSERT_LT((found[v] - expected[v]).norm(), 1e-4) << time << " " << m << " " << v;
+    }
+  }
+}
+
+TEST_F(TransferCommand, few_matches_ask_for_unit_and_place) {
+  Character far = sunk_cactus();
+  for (Mesh& mesh : far.meshes)
+    for (Vec3f& position : mesh.positions) position *= 0.01f;
+  ASSERT_TRUE(save_glb(path("small.glb"), far));
+  const CommandResult small =
+      run_sunder({"transfer", source(), path("small.glb"), "-o", path("no.glb")});
+  EXPECT_THAT(small.err, HasSubstr("are both in the same unit"));
+  EXPECT_THAT(small.err, HasSubstr("times as large"));
+  Character beside = sunk_cactus();
+  for (Mesh& mesh : beside.meshes)
+    for (Vec3f& position : mesh.positions) position.x() += 0.35f;
+  ASSERT_TRUE(save_glb(path("beside.glb"), beside));
+  const CommandResult moved = run_sunder({"transfer", source(), path("beside.glb"), "-o",
+                                          path("beside_skinned.glb"), "--distance", "0.5%"});
+  EXPECT_THAT(moved.err, HasSubstr("do both stand in the same place"));
+  EXPECT_THAT(moved.err, HasSubstr("the source spans"));
+}
+
+TEST_F(TransferCommand, an_unknown_bone_comes_with_the_nearest_names) {
+  const CommandResult result =
+      run_sunder({"transfer", source(), stiff(), "--dry-run", "--bones", "Trnk2"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("did you mean 'Trunk2'"));
 }
 
 TEST_F(TransferCommand, a_dry_run_writes_nothing) {

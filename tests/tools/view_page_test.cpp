@@ -232,6 +232,9 @@ class ViewPage : public CommandSuite {
   static void a_plane_cuts_through_two_places_in_the_line_of_sight();
   static void a_bounded_plane_cuts_through_three_places();
   static void a_bore_has_its_axis_through_the_place_that_was_clicked();
+  static void aimed_operations_name_the_bone_under_the_pointer();
+  static void an_incision_names_places_of_the_surface();
+  static void what_would_open_is_drawn_where_it_opens();
   static void saved_logs_follow_the_schema();
   static void undo_and_redo_change_the_list();
   static void can_be_used_without_a_mouse_and_on_a_narrow_screen();
@@ -246,6 +249,9 @@ TEST_F(ViewPage, makes_operations_that_meet_the_places_that_were_clicked) {
   a_plane_cuts_through_two_places_in_the_line_of_sight();
   a_bounded_plane_cuts_through_three_places();
   a_bore_has_its_axis_through_the_place_that_was_clicked();
+  aimed_operations_name_the_bone_under_the_pointer();
+  an_incision_names_places_of_the_surface();
+  what_would_open_is_drawn_where_it_opens();
   saved_logs_follow_the_schema();
   undo_and_redo_change_the_list();
   can_be_used_without_a_mouse_and_on_a_narrow_screen();
@@ -324,8 +330,95 @@ void ViewPage::a_bore_has_its_axis_through_the_place_that_was_clicked() {
   expect_bore("drill_bind", BindPose{});
 }
 
+/// The bone that moves the place most that a ray meets first, from the influences in the file.
+std::string bone_under(const Ray& ray, const PosedModel& posed) {
+  double nearest = std::numeric_limits<double>::infinity();
+  std::map<std::string, double> shares;
+  for (Index m = 0; m < posed.character.meshes.size(); ++m) {
+    const Mesh& mesh = posed.character.meshes[m];
+    const auto& of = posed.positions[m];
+    for (const Triangle& triangle : mesh.triangles) {
+      const double found = distance_to(ray, {of[triangle[0]], of[triangle[1]], of[triangle[2]]});
+      if (found >= nearest) continue;
+      nearest = found;
+      shares.clear();
+      for (const Index vertex : triangle)
+        for (const Influence& influence : mesh.weights.of(vertex))
+          shares[posed.character.skeleton
+                     .bones[posed.character.skins[mesh.skin].bones[influence.slot]]
+                     .name] += influence.weight;
+    }
+  }
+  return std::ranges::max_element(shares, {}, [](const auto& of) { return of.second; })->first;
+}
+
+void ViewPage::aimed_operations_name_the_bone_under_the_pointer() {
+  for (const char* const name : {"slash", "sever", "puncture"}) {
+    const json& used_tool = facts_[name];
+    EXPECT_EQ(used_tool["saved"], true) << name;
+    const PosedModel posed(source(), pose_of(used_tool));
+    const json& ray = used_tool["rays"][0];
+    const std::string bone =
+        bone_under({vector_of(ray["eye"]), vector_of(ray["direction"])}, posed);
+    const json operation = read_json(std::string("saved/") + name + ".json")["operations"][0];
+    EXPECT_EQ(operation["op"], name);
+    EXPECT_EQ(operation[operation["op"] == "sever" ? "bone" : "around"], bone);
+    const LoadedCharacter torn = torn_by(name);
+    const NewSurface made(source(), PosedModel(*torn.character, pose_of(used_tool)));
+    EXPECT_FALSE(made.vertices.empty()) << name;
+    // It lies about where the click was: at the limb, at that share.
+    const Vec3d place = clicked_places(used_tool, posed).at(0);
+    EXPECT_LT(made.distance_to_vertex(place), 0.15 * posed.diagonal) << name;
+  }
+}
+
+void ViewPage::an_incision_names_places_of_the_surface() {
+  const json& used_tool = facts_["incision"];
+  EXPECT_EQ(used_tool["saved"], true);
+  EXPECT_GT(facts_["pending_preview"], 0);
+  EXPECT_EQ(facts_["without_operations"], 0);
+  const PosedModel posed(source(), pose_of(used_tool));
+  const json operation = read_json("saved/incision.json")["operations"][0];
+  const std::vector<Vec3d> places = clicked_places(used_tool, posed);
+  ASSERT_EQ(operation["points"].size(), places.size());
+  const LoadedCharacter torn = torn_by("incision");
+  const NewSurface made(source(), PosedModel(*torn.character, pose_of(used_tool)));
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const json& point = operation["points"][i];
+    const Index mesh = point["mesh"];
+    const Triangle& triangle =
+        source().meshes[mesh].triangles[point["triangle"].get<std::size_t>()];
+    Vec3d place = Vec3d::Zero();
+    for (std::size_t k = 0; k < 3; ++k)
+      place += point["barycentrics"][k].get<double>() * posed.positions[mesh][triangle[k]];
+    EXPECT_LT((place - places[i]).norm(), kTolerance * posed.diagonal);
+    EXPECT_LT(made.distance_to_edge(place), 0.01 * posed.diagonal);
+  }
+}
+
+/// The segments that the page draws for a stroke and a plane lie on the lips that tearing makes.
+void ViewPage::what_would_open_is_drawn_where_it_opens() {
+  for (const char* const name : {"tear", "cut"}) {
+    const json& used_tool = facts_[name];
+    ASSERT_FALSE(used_tool["opened"].empty()) << name;
+    const PoseSpec pose = pose_of(used_tool);
+    const LoadedCharacter torn = torn_by(name);
+    const PosedModel posed(*torn.character, pose);
+    const NewSurface made(source(), posed);
+    double length = 0;
+    for (const json& segment : used_tool["opened"]) {
+      const Vec3d from = vector_of(segment[0]), to = vector_of(segment[1]);
+      length += (to - from).norm();
+      // Snapping moves a lip by up to a thousandth of an edge.
+      EXPECT_LT(made.distance_to_edge(0.5 * (from + to)), 1e-3 * posed.diagonal) << name;
+    }
+    EXPECT_GT(length, 0.02 * posed.diagonal) << name;
+  }
+}
+
 void ViewPage::saved_logs_follow_the_schema() {
-  for (const char* const name : {"tear", "cut", "disc", "drill", "drill_rest", "drill_bind"}) {
+  for (const char* const name : {"tear", "cut", "disc", "drill", "drill_rest", "drill_bind",
+                                 "slash", "sever", "puncture", "incision"}) {
     const auto run =
         run_node_program("schema.mjs", "'" SUNDER_SOURCE_DIR "/docs/operation_log.schema.json' '" +
                                            path(std::string("saved/") + name + ".json") + "'");

@@ -1,14 +1,17 @@
 #include "tools/bind/place.h"
 
+#include <cmath>
 #include <sstream>
 #include <vector>
 
-#include "tools/model/name_at.h"
+#include "tools/model/quantity.h"
 
 namespace sunder::tools {
 namespace {
 
 constexpr double kRadians = 0.017453292519943295;
+/// Farther places are no metres, and products of coordinates stay finite.
+constexpr double kMost = 1e9;
 
 }  // namespace
 
@@ -16,8 +19,11 @@ std::optional<Affine3d> parse_place(const std::string& text) {
   std::vector<double> numbers;
   std::istringstream parts(text);
   for (std::string part; std::getline(parts, part, ',');) {
-    const std::optional<double> number = number_in(part);
-    if (!number) return std::nullopt;
+    const Quantity quantity = numbers.size() < 3   ? Quantity::length
+                              : numbers.size() < 6 ? Quantity::angle
+                                                   : Quantity::number;
+    const std::optional<double> number = quantity_in(part, quantity);
+    if (!number || !(std::abs(*number) <= kMost)) return std::nullopt;
     numbers.push_back(*number);
   }
   if (numbers.size() != 3 && numbers.size() != 6 && numbers.size() != 7) return std::nullopt;

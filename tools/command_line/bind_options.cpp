@@ -1,7 +1,8 @@
 #include <string>
 
+#include "binding/internal/option_ranges.h"
 #include "tools/bind/place.h"
-#include "tools/command_line/no_nan.h"
+#include "tools/command_line/number_option.h"
 #include "tools/command_line/options.h"
 
 namespace sunder::tools {
@@ -30,7 +31,7 @@ void add_place(CLI::App& verb, BindRequest& request) {
                       "--place", "'" + text + "': expected x,y,z[,roll,pitch,yaw[,scale]]");
               },
               "Place of the model in the skeleton's space: x,y,z[,roll,pitch,yaw[,scale]], metres "
-              "and degrees")
+              "and degrees about the fixed x, y and z axes, in this order")
           ->type_name("NUMBERS");
   verb.add_flag("--fit", request.fit,
                 "Place the model such that its joints are nearest to those they are mapped to")
@@ -51,13 +52,14 @@ void add_weight_rules(CLI::App& verb, BindRequest& request) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->excludes(map);
-  verb.add_option("--heat", request.options.heat, "Heat of a bone; more makes narrower transitions")
-      ->check(CLI::PositiveNumber)
-      ->check(no_nan())
+  takes(verb.add_option("--heat", request.options.heat,
+                        "Heat of a bone; more makes narrower transitions"),
+        binding::kHeat)
       ->excludes(map)
       ->capture_default_str();
-  verb.add_option("--influences", request.options.maximum_influences,
-                  "Largest number of influences per vertex; 0: all")
+  takes_count(verb.add_option("--influences", request.options.maximum_influences,
+                              "Largest number of influences per vertex; 0: all"),
+              0, kMostInfluences)
       ->excludes(map)
       ->capture_default_str();
 }

@@ -1,4 +1,4 @@
-#include "tools/command_line/no_nan.h"
+#include "tools/command_line/number_option.h"
 #include "tools/command_line/options.h"
 
 namespace sunder::tools {
@@ -10,17 +10,15 @@ void add_model_reading(CLI::App& verb, ModelReading& reading) {
                   "Folder of packages that the robot's file names. Repeatable")
       ->type_name("FOLDER")
       ->allow_extra_args(false);
-  verb.add_option("--import-seconds", reading.import_seconds,
-                  "Time limit for formats that are read in the helper process")
-      ->check(CLI::PositiveNumber)
-      ->check(no_nan())
+  takes(verb.add_option("--import-seconds", reading.import_seconds,
+                        "Time limit for formats that are read in the helper process"),
+        kSeconds, Quantity::time)
       ->type_name("SECONDS")
       ->capture_default_str();
-  verb.add_option("--memory", reading.memory,
-                  "Limit for the memory that reading glTF takes; without it 20 times the files, at "
-                  "least 64")
-      ->check(CLI::Range(0.001, 1e6))
-      ->check(no_nan())
+  takes(verb.add_option("--memory", reading.memory,
+                        "Limit for the memory that reading glTF takes; without it 20 times the "
+                        "files, at least 64"),
+        kMegabytes)
       ->type_name("MEGABYTES");
 }
 

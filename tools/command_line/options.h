@@ -22,9 +22,10 @@ void add_aimed_operations(CLI::App& verb);
 void read_aimed_operations(const CLI::App& verb, TearRequest& request);
 
 /// `--robot`, its motion, its blade and its place.
-void add_robot(CLI::App& verb, RobotTearRequest& robot);
+/// @param description  of `--robot`.
+void add_robot(CLI::App& verb, RobotTearRequest& robot, const char* description);
 /// Whether a robot is asked for, with all that it needs. @throws CLI::ValidationError
-[[nodiscard]] bool has_robot(const CLI::App& verb, const RobotTearRequest& robot);
+[[nodiscard]] bool has_robot(const CLI::App& verb, const RobotTearRequest& robot, bool needs_blade);
 
 /// `--strict`, `--package-root`, `--import-seconds` and `--memory`: how the verb reads its models.
 void add_model_reading(CLI::App& verb, ModelReading& reading);

@@ -1,5 +1,6 @@
 #include <array>
 #include <charconv>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -102,6 +103,15 @@ CLI::App* add_picture(CLI::App& app, PictureRequest& request) {
   verb->add_option("--ops", request.operations,
                    "Operation log: draws its blades, planes and bores; nothing is torn")
       ->type_name("FILE");
+  const auto robot = std::make_shared<RobotTearRequest>();  // lives as long as the options
+  add_robot(
+      *verb, *robot,
+      "Robot, URDF, that stands beside the model: at rest, or at the end of --trajectory; with "
+      "--blade its way is drawn");
+  verb->callback([&request, verb, robot] {
+    if (request.pose) robot->pose = *request.pose;
+    if (has_robot(*verb, *robot, false)) request.robot = *robot;
+  });
   add_model_reading(*verb, request.reading);
   add_budget_of_operations(*verb, request.budget);
   verb->footer(

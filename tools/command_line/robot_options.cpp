@@ -3,10 +3,11 @@
 #include <sstream>
 #include <string>
 
+#include "operation/internal/field_ranges.h"
+#include "robot/internal/option_ranges.h"
 #include "tools/bind/place.h"
-#include "tools/command_line/no_nan.h"
+#include "tools/command_line/number_option.h"
 #include "tools/command_line/options.h"
-#include "tools/model/name_at.h"
 
 namespace sunder::tools {
 namespace {
@@ -19,8 +20,8 @@ bool parse_edge(const std::string& text, RobotTearRequest& robot) {
   std::size_t count = 0;
   std::istringstream parts(text);
   for (std::string part; std::getline(parts, part, ','); ++count) {
-    const std::optional<double> number = number_in(part);
-    if (!number || count == numbers.size()) return false;
+    const std::optional<double> number = quantity_in(part, Quantity::length);
+    if (!number || count == numbers.size() || !field::kCoordinate.holds(*number)) return false;
     numbers[count] = *number;
   }
   robot.base = Vec3d(numbers[0], numbers[1], numbers[2]);
@@ -46,10 +47,9 @@ void add_blade(CLI::App& verb, RobotTearRequest& robot, CLI::Option* file) {
       ->group(kGroup)
       ->default_str("0,0,0,0,0,0.05")
       ->needs(file);
-  verb.add_option("--spacing", robot.spacing,
-                  "Largest distance that base or tip moves between two blades, metres")
-      ->check(CLI::PositiveNumber)
-      ->check(no_nan())
+  takes(verb.add_option("--spacing", robot.spacing,
+                        "Largest distance that base or tip moves between two blades, metres"),
+        robot::kSpacing, Quantity::length)
       ->type_name("NUMBER")
       ->group(kGroup)
       ->capture_default_str()
@@ -58,13 +58,9 @@ void add_blade(CLI::App& verb, RobotTearRequest& robot, CLI::Option* file) {
 
 }  // namespace
 
-void add_robot(CLI::App& verb, RobotTearRequest& robot) {
+void add_robot(CLI::App& verb, RobotTearRequest& robot, const char* description) {
   CLI::Option* const file =
-      verb.add_option("--robot", robot.robot,
-                      "Robot, URDF, whose blade tears the model after --ops and the options above; "
-                      "see docs/robot_tears.md")
-          ->type_name("FILE")
-          ->group(kGroup);
+      verb.add_option("--robot", robot.robot, description)->type_name("FILE")->group(kGroup);
   verb.add_option("--trajectory", robot.trajectory,
                   "The robot's motion: CSV or JSON of times and joint values")
       ->type_name("FILE")
@@ -80,14 +76,16 @@ void add_robot(CLI::App& verb, RobotTearRequest& robot) {
                                          "'" + text + "': expected x,y,z[,roll,pitch,yaw]");
             robot.place = *place;
           },
-          "Place of the robot in the model's space: x,y,z[,roll,pitch,yaw], metres and degrees")
+          "Place of the robot in the model's space: x,y,z[,roll,pitch,yaw], metres and degrees; "
+          "roll "
+          "about the model's x, then pitch about its y, then yaw about its z, as URDF's rpy: "
+          "0,1,0,0,90,0 turns what points along +z to +x")
       ->type_name("NUMBERS")
       ->group(kGroup)
       ->needs(file);
-  verb.add_option("--clip-speed", robot.clip_speed,
-                  "Seconds by which the clip of --pose runs on per second of the motion")
-      ->check(CLI::NonNegativeNumber)
-      ->check(no_nan())
+  takes(verb.add_option("--clip-speed", robot.clip_speed,
+                        "Seconds by which the clip of --pose runs on per second of the motion"),
+        robot::kClipSpeed)
       ->type_name("NUMBER")
       ->group(kGroup)
       ->capture_default_str()
@@ -98,10 +96,11 @@ void add_robot(CLI::App& verb, RobotTearRequest& robot) {
       ->needs(file);
 }
 
-bool has_robot(const CLI::App& verb, const RobotTearRequest& robot) {
+bool has_robot(const CLI::App& verb, const RobotTearRequest& robot, bool needs_blade) {
   if (verb.count("--robot") == 0) return false;
-  if (robot.trajectory.empty()) throw CLI::RequiredError("--trajectory (with --robot)");
-  if (robot.link.empty()) throw CLI::RequiredError("--blade (with --robot)");
+  if (robot.trajectory.empty() && (needs_blade || !robot.link.empty()))
+    throw CLI::RequiredError("--trajectory (with --robot)");
+  if (robot.link.empty() && needs_blade) throw CLI::RequiredError("--blade (with --robot)");
   if (robot.clip_speed > 0 && robot.pose.find('@') == std::string::npos)
     throw CLI::ValidationError("--clip-speed", "needs --pose CLIP@TIME");
   return true;

@@ -1,7 +1,8 @@
 #include <memory>
 #include <string>
 
-#include "tools/command_line/no_nan.h"
+#include "operation/internal/field_ranges.h"
+#include "tools/command_line/number_option.h"
 #include "tools/command_line/options.h"
 #include "tools/written_weights/written_influences.h"
 
@@ -37,10 +38,9 @@ void add_weight_policy(CLI::App& verb, TearRequest& request) {
           "separated by commas")
       ->type_name("POSES")
       ->default_str("clips,range_of_motion, or what the model has");
-  verb.add_option("--refit-bound", request.refit_bound,
-                  "Largest growth of the certified worst deviation by a refit; 0: any")
-      ->check(CLI::Range(0.0, 1e9))
-      ->check(no_nan())
+  takes(verb.add_option("--refit-bound", request.refit_bound,
+                        "Largest growth of the certified worst deviation by a refit; 0: any"),
+        {.field = "the value", .least = 0, .most = field::kBound.most})
       ->type_name("FACTOR")
       ->capture_default_str();
 }
@@ -51,8 +51,7 @@ void check_weight_policy(const CLI::App& verb, const TearRequest& request) {
   if (request.weights != WeightPolicy::refit && (request.refit_over || has_bound))
     throw CLI::ValidationError(request.refit_over ? "--refit-over" : "--refit-bound",
                                "needs --weights refit");
-  if (request.refit_bound > 0 && request.refit_bound < 1)
-    throw CLI::ValidationError("--refit-bound", "expected a factor of at least 1, or 0");
+  if (request.refit_bound != 0) check_value("--refit-bound", field::kBound, request.refit_bound);
 }
 
 /// Options that say what is reported, and where.
@@ -100,6 +99,18 @@ std::uint32_t maximum_influences(const std::string& name) {
   return 0;
 }
 
+void add_influences(CLI::App& verb, TearRequest& request) {
+  verb.add_option_function<std::string>(
+          "--influences",
+          [&request](const std::string& name) {
+            request.save.maximum_influences = maximum_influences(name);
+          },
+          "Influences written per vertex: source (no more than there, at least 4), the 4 or 8 "
+          "largest, renormalised, or all")
+      ->check(CLI::IsMember({"source", "4", "8", "all"}))
+      ->default_str("source");
+}
+
 /// A flag that may have a value after "=", so that it takes no other argument for it.
 void add_open(CLI::App& verb, TearRequest& request) {
   const auto form = std::make_shared<std::string>();
@@ -143,18 +154,12 @@ CLI::App* add_tear(CLI::App& app, TearRequest& request) {
           "Operation log, JSON: the tears, cuts and bores to apply; see docs/operation_log.md")
       ->type_name("FILE");
   add_aimed_operations(*verb);
-  add_robot(*verb, *robot);
+  add_robot(*verb, *robot,
+            "Robot, URDF, whose blade tears the model after --ops and the options above; see "
+            "docs/robot_tears.md");
   verb->add_option("-o,--output", request.output, "File for the torn model, GLB")
       ->type_name("FILE");
-  verb->add_option_function<std::string>(
-          "--influences",
-          [&request](const std::string& name) {
-            request.save.maximum_influences = maximum_influences(name);
-          },
-          "Influences written per vertex: source (no more than there, at least 4), the 4 or 8 "
-          "largest, renormalised, or all")
-      ->check(CLI::IsMember({"source", "4", "8", "all"}))
-      ->default_str("source");
+  add_influences(*verb, request);
   add_weights_as(*verb, request.save);
   add_weight_policy(*verb, request);
   add_maximum_error(*verb, request.maximum_error, &request.robot_limits);
@@ -173,7 +178,7 @@ CLI::App* add_tear(CLI::App& app, TearRequest& request) {
     check_weight_policy(*verb, request);
     read_aimed_operations(*verb, request);
     if (verb->count("--pose") > 0) robot->pose = verb->get_option("--pose")->results().back();
-    if (has_robot(*verb, *robot)) request.robot = *robot;
+    if (has_robot(*verb, *robot, true)) request.robot = *robot;
     if (request.operations.empty() && request.aimed.empty() && !request.robot)
       throw CLI::RequiredError("--ops (or --slash, --sever, --puncture, --robot)");
     if (!request.dry_run && !request.output) throw CLI::RequiredError("--output (or --dry-run)");

@@ -1,23 +1,22 @@
 #include <string>
 
-#include "tools/command_line/no_nan.h"
+#include "tools/command_line/number_option.h"
 #include "tools/command_line/options.h"
+#include "validation/internal/option_ranges.h"
 
 namespace sunder::tools {
 namespace {
 
 /// Where matches are sought and which are accepted.
 void add_match_rules(CLI::App& verb, TransferOptions& options) {
-  verb.add_option("--distance", options.distance,
-                  "Largest distance of a match, share of the target's diagonal")
-      ->check(CLI::NonNegativeNumber)
-      ->check(no_nan())
+  takes(verb.add_option("--distance", options.distance,
+                        "Largest distance of a match, share of the target's diagonal"),
+        validation::kDistance, Quantity::share)
       ->capture_default_str();
-  verb.add_option_function<double>(
-          "--angle", [&options](double degrees) { options.angle = degrees / 57.295779513082323; },
-          "Largest angle between the normals of a match, degrees")
-      ->check(CLI::Range(0.0, 180.0))
-      ->check(no_nan())
+  takes(verb.add_option_function<double>(
+            "--angle", [&options](double degrees) { options.angle = degrees / 57.295779513082323; },
+            "Largest angle between the normals of a match, degrees"),
+        validation::kAngleDegrees, Quantity::angle)
       ->default_str("30");
   verb.add_flag("--flip-normals", options.flip_normals,
                 "Normals that point the opposite way agree too");
@@ -39,13 +38,18 @@ void add_weight_rules(CLI::App& verb, TransferRequest& request) {
           "closest: interpolate at the closest place; inpainting: fill in where none is accepted")
       ->check(CLI::IsMember({"closest", "inpainting"}))
       ->default_str("inpainting");
-  verb.add_option("--smoothness", options.smoothness,
-                  "Weight of the bi-Laplacian where weights are filled in, squared diagonals")
+  takes(verb.add_option("--smoothness", options.smoothness,
+                        "Weight of the bi-Laplacian where weights are filled in, squared "
+                        "diagonals"),
+        validation::kSmoothness)
       ->capture_default_str();
-  verb.add_option("--smoothing", options.smoothing_sweeps, "Sweeps of smoothing after that")
+  takes_count(
+      verb.add_option("--smoothing", options.smoothing_sweeps, "Sweeps of smoothing after that"), 0,
+      1'000'000)
       ->capture_default_str();
-  verb.add_option("--influences", options.maximum_influences,
-                  "Largest number of influences per vertex; 0: all")
+  takes_count(verb.add_option("--influences", options.maximum_influences,
+                              "Largest number of influences per vertex; 0: all"),
+              0, kMostInfluences)
       ->capture_default_str();
   verb.add_option("--bone-names", request.bone_names,
                   "JSON file of bones whose names differ: {\"of the target\": \"of the source\"}")
@@ -54,9 +58,9 @@ void add_weight_rules(CLI::App& verb, TransferRequest& request) {
       ->type_name("NAMES")
       ->delimiter(',')
       ->allow_extra_args(false);
-  verb.add_option("--mix", options.mix, "Share of the new weights; the rest are the target's own")
-      ->check(CLI::Range(0.0, 1.0))
-      ->check(no_nan())
+  takes(verb.add_option("--mix", options.mix,
+                        "Share of the new weights; the rest are the target's own"),
+        validation::kMix, Quantity::share)
       ->capture_default_str();
   verb.add_option("--vertices", request.vertices,
                   "JSON file of the vertices that change: {\"mesh\": [0, 1, 2]}")
@@ -80,6 +84,8 @@ CLI::App* add_transfer(CLI::App& app, TransferRequest& request) {
   const CLI::Option* const output =
       verb->add_option("-o,--output", request.output, "The target with its new weights, GLB")
           ->type_name("FILE");
+  verb->add_flag("--clips", request.copies_clips,
+                 "Write the source's clips too, for bones that rest alike in both");
   verb->add_flag("--dry-run", request.options.dry_run, "Only match; write no model");
   add_match_rules(*verb, request.options);
   add_weight_rules(*verb, request);

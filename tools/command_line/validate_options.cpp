@@ -1,5 +1,6 @@
-#include "tools/command_line/no_nan.h"
+#include "tools/command_line/number_option.h"
 #include "tools/command_line/options.h"
+#include "validation/internal/option_ranges.h"
 
 namespace sunder::tools {
 
@@ -26,10 +27,9 @@ CLI::App* add_validate(CLI::App& app, ValidateRequest& request) {
   verb->add_option("--fail-on", request.fail_on, "Least severity for exit code 1")
       ->check(CLI::IsMember({"error", "warning", "note"}))
       ->capture_default_str();
-  verb->add_option("--error-deviation", request.error_deviation,
-                   "Share of the source's diagonal from which a deviation is an error")
-      ->check(CLI::Range(0.0, 1e9))
-      ->check(no_nan())
+  takes(verb->add_option("--error-deviation", request.error_deviation,
+                         "Share of the source's diagonal from which a deviation is an error"),
+        validation::kErrorDeviation, Quantity::share)
       ->type_name("SHARE")
       ->capture_default_str();
   verb->add_option("--report", request.report, "File for the JSON report")->type_name("FILE");
@@ -39,8 +39,7 @@ CLI::App* add_validate(CLI::App& app, ValidateRequest& request) {
       verb->add_option("--manifest", request.manifest,
                        "Many pairs, JSON; it names the files that are read and written, anywhere")
           ->type_name("FILE");
-  verb->add_option("--jobs", request.jobs, "Pairs of a manifest at a time")
-      ->check(CLI::Range(1, 256))
+  takes_count(verb->add_option("--jobs", request.jobs, "Pairs of a manifest at a time"), 1, 256)
       ->capture_default_str();
   verb->add_flag("--json-lines", request.as_json_lines,
                  "Print progress and results as one JSON object per line");

@@ -1,12 +1,15 @@
 #include <string>
 
+#include "tools/command_line/number_option.h"
 #include "tools/command_line/options.h"
 #include "tools/model/robot_joints.h"
-#include "tools/written_weights/length.h"
 #include "tools/written_weights/written_influences.h"
 
 namespace sunder::tools {
 namespace {
+
+/// 0 asks for no error at all; above it no influence would be left.
+constexpr NumberRange kMaximumError = {.field = "the value", .least = 0, .most = 1e9, .unit = " m"};
 
 /// @param name  a result of weight_format_name().
 WeightFormat weight_format(const std::string& name) {
@@ -31,17 +34,18 @@ void add_maximum_error(CLI::App& verb, std::optional<MaximumError>& wanted,
   CLI::Option* const length =
       verb.add_option_function<std::string>(
               "--max-error",
-              [&wanted](const std::string& text) { wanted = MaximumError{*parse_length(text)}; },
+              [&wanted](const std::string& text) {
+                const std::optional<double> metres = length_with_unit(text);
+                if (!metres)
+                  throw CLI::ValidationError("--max-error",
+                                             "'" + text +
+                                                 "' is no length; expected a number and its unit: "
+                                                 "0.1mm, 20um, 1cm, 0.02m");
+                check_value("--max-error", kMaximumError, *metres);
+                wanted = MaximumError{*metres};
+              },
               "Write as few influences and bits as keep every vertex within this distance of the "
               "unpruned skin in every pose: 0.1mm, 20um, 1cm")
-          ->check(CLI::Validator(
-              [](const std::string& text) {
-                return parse_length(text) ? std::string()
-                                          : "'" + text +
-                                                "' is no length; expected a number and its unit: "
-                                                "0.1mm, 20um, 1cm, 0.02m";
-              },
-              ""))
           ->type_name("LENGTH");
   for (const char* const other : {"--influences", "--weights-as"})
     length->excludes(verb.get_option(other));

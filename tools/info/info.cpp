@@ -122,6 +122,7 @@ Json info_json(const InfoRequest& request, const LoadedCharacter& loaded, const 
     info["clips"].push_back({{"name", clip.name},
                              {"duration", static_cast<double>(clip.duration)},
                              {"channels", clip.channels.size()}});
+  info["static"] = is_static(character);
   info["weight_sum_min"] = check.least_weight_sum;
   info["weight_sum_max"] = check.greatest_weight_sum;
   info["topology"] = to_json(topology);
@@ -163,8 +164,7 @@ void add_materials_and_clips(const Json& info, Lines& lines) {
     lines.add(printed("clip %zu     '%s': %.4g s, %zu channels", i,
                       text(info["clips"][i]["name"]).c_str(), number(info["clips"][i]["duration"]),
                       count(info["clips"][i]["channels"])));
-  const auto is_of_one_bone = [](const Json& skin) { return count(skin["bones"]) <= 1; };
-  if (info["clips"].empty() && std::ranges::all_of(info["skins"], is_of_one_bone))
+  if (info["static"].get<bool>())
     lines.add("static     no clips, and no skin of several bones: nothing bends it");
 }
 

@@ -3,13 +3,23 @@
 #include <sunder/io/robot_file.h>
 #include <sunder/robot/trajectory.h>
 
+#include <numbers>
 #include <optional>
 
-#include "tools/model/name_at.h"
+#include "tools/model/quantity.h"
 #include "tools/model/robot_joints.h"
 
 namespace sunder::tools {
 namespace {
+
+/// Radians or metres, also "30deg" and "10mm".
+std::optional<double> value_in(const std::string& text) {
+  if (text.ends_with("deg")) {
+    const std::optional<double> degrees = quantity_in(text, Quantity::angle);
+    return degrees ? std::optional(*degrees * std::numbers::pi / 180) : std::nullopt;
+  }
+  return quantity_in(text, Quantity::length);
+}
 
 /// The values at one time, so that the rules for names are those of trajectories.
 Result<RobotTrajectory> values_in(const std::vector<std::string>& texts) {
@@ -17,10 +27,11 @@ Result<RobotTrajectory> values_in(const std::vector<std::string>& texts) {
   for (const std::string& text : texts) {
     const std::size_t equals = text.rfind('=');
     const std::optional<double> value =
-        equals == std::string::npos ? std::nullopt : number_in(text.substr(equals + 1));
+        equals == std::string::npos ? std::nullopt : value_in(text.substr(equals + 1));
     if (!value)
       return Status::failure(StatusCode::invalid_argument, kNone,
-                             "'%.80s': expected NAME=VALUE, in radians or metres", text.c_str());
+                             "'%.80s': expected NAME=VALUE, in radians or metres, or 30deg, 10mm",
+                             text.c_str());
     values.names.push_back(text.substr(0, equals));
     values.values.push_back(*value);
   }

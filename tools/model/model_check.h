@@ -18,4 +18,7 @@ struct ModelCheck {
 [[nodiscard]] ModelCheck check_mesh(const Mesh& mesh);
 [[nodiscard]] ModelCheck check_model(const Character& character);
 
+/// Whether nothing bends a model: it has no clip, and no skin of several bones.
+[[nodiscard]] bool is_static(const Character& character);
+
 }  // namespace sunder::tools

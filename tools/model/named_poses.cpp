@@ -6,7 +6,9 @@
 #include <variant>
 #include <vector>
 
+#include "core/internal/find_named.h"
 #include "tools/model/history.h"
+#include "tools/model/model_check.h"
 #include "tools/model/name_advice.h"
 
 namespace sunder::tools {
@@ -25,12 +27,17 @@ std::string advice(const std::string& name, const char* kind, const std::vector<
   return is_there ? std::string() : name_advice(name, kind, all);
 }
 
+std::string advice_on_clip(const std::string& name, const Character& character) {
+  return find_clip(character, name) ? std::string()
+                                    : name_advice(name, "clips", names_of(character.clips));
+}
+
 }  // namespace
 
 std::string advice_on_names(const PoseSpec& spec, const Character& character) {
   if (const auto* const pose = std::get_if<ClipPose>(&spec)) {
     const auto* const name = std::get_if<std::string>(&pose->clip);
-    return name != nullptr ? advice(*name, "clips", names_of(character.clips)) : std::string();
+    return name != nullptr ? advice_on_clip(*name, character) : std::string();
   }
   const auto* const bones = std::get_if<BonesPose>(&spec);
   if (bones == nullptr) return {};
@@ -59,12 +66,15 @@ std::string advice_on_names(const AimedOperation& operation, const Character& ch
         return true;
       },
       operation);
-  return advice.empty() && !has_bone ? "; `sunder info MODEL --bones` lists the bones" : advice;
+  if (!advice.empty() || has_bone) return advice;
+  return is_static(character)
+             ? "; the model is static: no clips, and no skin of several bones"
+             : "; `sunder info MODEL --bones` lists the bones";
 }
 
 std::string advice_on_names(const RefitOptions& refit, const Character& character) {
   for (const RefitImportance::OfClip& of : refit.importance.of_clip) {
-    std::string text = advice(of.clip, "clips", names_of(character.clips));
+    std::string text = advice_on_clip(of.clip, character);
     if (!text.empty()) return text;
   }
   return {};

@@ -24,7 +24,7 @@ Status at_operation(std::size_t number, const Status& status, const std::string&
 Result<std::vector<Operation>> load_plain_operations(
     const std::filesystem::path& file, const std::shared_ptr<const Character>& character,
     Budget& budget) {
-  auto logged = load_aimed_operations(file);
+  auto logged = load_aimed_operations(file, character.get());
   if (!logged) return logged.error();
   const auto last_aimed = std::find_if(
       logged->rbegin(), logged->rend(),

@@ -3,10 +3,11 @@
 #include <optional>
 #include <string_view>
 
+#include "core/internal/find_named.h"
 #include "tools/messages/printed.h"
-#include "tools/model/find_clip.h"
 #include "tools/model/name_at.h"
 #include "tools/model/named_poses.h"
+#include "tools/model/quantity.h"
 
 namespace sunder::tools {
 namespace {
@@ -16,8 +17,7 @@ constexpr double kTimeTolerance = 1e-3;
 
 /// Seconds, 0 or more; empty for other texts.
 std::optional<double> parse_time(std::string_view text) {
-  if (text.ends_with('s')) text.remove_suffix(1);
-  const std::optional<double> seconds = number_in(text);
+  const std::optional<double> seconds = quantity_in(text, Quantity::time);
   return seconds && *seconds >= 0 ? seconds : std::nullopt;
 }
 

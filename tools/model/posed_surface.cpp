@@ -32,7 +32,7 @@ double distance_between(const Bounds& a, const Bounds& b) {
 }
 
 /// Ericson, Real-Time Collision Detection, section 5.1.9.
-double segment_distance(const Vec3d& p, const Vec3d& q, const Vec3d& r, const Vec3d& s) {
+NearestPlaces nearest_on_segments(const Vec3d& p, const Vec3d& q, const Vec3d& r, const Vec3d& s) {
   const Vec3d along = q - p, across = s - r, between = p - r;
   const double a = along.dot(along), e = across.dot(across), f = across.dot(between);
   const double b = along.dot(across), c = along.dot(between);
@@ -43,7 +43,12 @@ double segment_distance(const Vec3d& p, const Vec3d& q, const Vec3d& r, const Ve
     other = std::clamp(other, 0.0, 1.0);
     at = a > 0 ? std::clamp((b * other - c) / a, 0.0, 1.0) : 0.0;
   }
-  return (p + at * along - r - other * across).norm();
+  return {p + at * along, r + other * across};
+}
+
+double segment_distance(const Vec3d& p, const Vec3d& q, const Vec3d& r, const Vec3d& s) {
+  const NearestPlaces nearest = nearest_on_segments(p, q, r, s);
+  return (nearest.of_first - nearest.of_second).norm();
 }
 
 /// The distance of a point from the inside of a triangle; infinite if it does not stand above it.
@@ -55,6 +60,12 @@ double height_above(const Corners& triangle, const Vec3d& point) {
   const double v = from.cross(ac).dot(normal) / squared, w = ab.cross(from).dot(normal) / squared;
   if (v < 0 || w < 0 || v + w > 1) return kInfinite;
   return std::abs(from.dot(normal)) / std::sqrt(squared);
+}
+
+/// The place of a triangle's plane below a point.
+Vec3d foot_on(const Corners& triangle, const Vec3d& point) {
+  const Vec3d normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).normalized();
+  return point - normal.dot(point - triangle[0]) * normal;
 }
 
 /// Where a line meets the inside of a triangle: the multiple of `direction`.
@@ -80,18 +91,19 @@ bool pierces(const Corners& edges_of, const Corners& triangle) {
   return false;
 }
 
-/// The distance between a shape and one run of a surface, if that is below `least`.
-double distance_within(const PosedSurface& surface, std::size_t run, const Corners& part,
-                       double least) {
+/// Looks for a triangle of a run of a surface that is nearer to a part of a shape than the nearest
+/// one so far.
+void look_within(const PosedSurface& surface, std::size_t run, const Corners& part,
+                 std::size_t index, Nearest& nearest) {
   const Bounds box = box_of(part);
   const std::size_t begin = run * PosedSurface::kRun,
                     end = std::min(begin + PosedSurface::kRun, surface.triangles.size());
   for (std::size_t i = begin; i < end; ++i) {
     const Corners& triangle = surface.triangles[i];
-    if (distance_between(box, box_of(triangle)) < least)
-      least = std::min(least, tools::distance_between(part, triangle));
+    if (distance_between(box, box_of(triangle)) >= nearest.distance) continue;
+    const double distance = tools::distance_between(part, triangle);
+    if (distance < nearest.distance) nearest = {distance, index, i};
   }
-  return least;
 }
 
 /// The solid angle of a triangle, divided by 4 pi; van Oosterom and Strackee 1983.
@@ -134,25 +146,42 @@ double distance_between(const Corners& a, const Corners& b) {
   return least;
 }
 
-double distance_between(const PosedSurface& surface, std::span<const Corners> shape,
-                        double enough) {
+NearestPlaces nearest_places(const Corners& first, const Corners& second) {
+  NearestPlaces nearest;
   double least = kInfinite;
+  const auto offer = [&](const NearestPlaces& places) {
+    const double distance = (places.of_first - places.of_second).norm();
+    if (!(distance < least)) return;
+    least = distance;
+    nearest = places;
+  };
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (height_above(first, second[i]) < kInfinite) offer({foot_on(first, second[i]), second[i]});
+    if (height_above(second, first[i]) < kInfinite) offer({first[i], foot_on(second, first[i])});
+    for (std::size_t j = 0; j < 3; ++j)
+      offer(nearest_on_segments(first[i], first[(i + 1) % 3], second[j], second[(j + 1) % 3]));
+  }
+  return nearest;
+}
+
+Nearest find_nearest(const PosedSurface& surface, std::span<const Corners> shape, double enough) {
+  Nearest nearest;
   std::vector<std::pair<double, std::size_t>> runs;  // by lower bounds of their distances
-  for (const Corners& part : shape) {
-    const Bounds box = box_of(part);
+  for (std::size_t part = 0; part < shape.size(); ++part) {
+    const Bounds box = box_of(shape[part]);
     runs.clear();
     for (std::size_t i = 0; i < surface.run_bounds.size(); ++i) {
       const double bound = distance_between(box, surface.run_bounds[i]);
-      if (bound < least) runs.emplace_back(bound, i);
+      if (bound < nearest.distance) runs.emplace_back(bound, i);
     }
     std::ranges::sort(runs);
     for (const auto& [bound, run] : runs) {
-      if (bound >= least) break;
-      least = std::min(least, distance_within(surface, run, part, least));
-      if (least <= enough) return least;
+      if (bound >= nearest.distance) break;
+      look_within(surface, run, shape[part], part, nearest);
+      if (nearest.distance <= enough) return nearest;
     }
   }
-  return least;
+  return nearest;
 }
 
 std::optional<double> first_hit(const PosedSurface& surface, const Vec3d& origin,

@@ -3,6 +3,7 @@
 #include <sunder/skinning/pose.h>
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -28,10 +29,25 @@ struct PosedSurface {
 /// The distance between two triangles; 0 if they meet.
 [[nodiscard]] double distance_between(const Corners& a, const Corners& b);
 
-/// The least distance between a surface and some triangles; infinite if there are none. The search
-/// ends at a distance of at most `enough`. At most O(product of the numbers of triangles).
-[[nodiscard]] double distance_between(const PosedSurface& surface, std::span<const Corners> shape,
-                                      double enough = 0.0);
+/// Where two things are nearest to each other.
+struct Nearest {
+  double distance = std::numeric_limits<double>::infinity();  ///< Infinite: there is nothing.
+  std::size_t part = 0, triangle = 0;                         ///< Of the shape and of the surface.
+};
+/// Where a surface and some triangles are nearest. The search ends at a distance of at most
+/// `enough`. At most O(product of the numbers of triangles).
+[[nodiscard]] Nearest find_nearest(const PosedSurface& surface, std::span<const Corners> shape,
+                                   double enough = 0.0);
+[[nodiscard]] inline double distance_between(const PosedSurface& surface,
+                                             std::span<const Corners> shape, double enough = 0.0) {
+  return find_nearest(surface, shape, enough).distance;
+}
+
+/// The places of two triangles that do not meet which are nearest to each other.
+struct NearestPlaces {
+  Vec3d of_first = Vec3d::Zero(), of_second = Vec3d::Zero();
+};
+[[nodiscard]] NearestPlaces nearest_places(const Corners& first, const Corners& second);
 
 /// Where a ray first meets a surface beyond `after`: the multiple of `direction`.
 [[nodiscard]] std::optional<double> first_hit(const PosedSurface& surface, const Vec3d& origin,

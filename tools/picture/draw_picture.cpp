@@ -2,6 +2,7 @@
 #include <sunder/skinning/pose.h>
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -27,8 +28,10 @@
 #include "tools/picture/labels.h"
 #include "tools/picture/model_looks.h"
 #include "tools/picture/operation_marks.h"
+#include "tools/picture/posed_robot.h"
 #include "tools/render/png_file.h"
 #include "tools/render/trace.h"
+#include "tools/tear/robot_tear.h"
 #include "tools/verbs.h"
 
 namespace sunder::tools {
@@ -102,11 +105,13 @@ std::string advice_on_limb(const Character& character, const Subject& subject,
   return name_advice(name, "bones", names);
 }
 
+/// @param robot  its surfaces.
 RenderScene make_scene(const Character& character, const Subject& subject,
-                       const ModelLooks& looks) {
+                       const std::vector<Mesh>& robot, const ModelLooks& looks) {
   RenderScene scene = looks.begin_scene();
   for (std::size_t m = 0; m < subject.meshes.size(); ++m)
     looks.add_mesh(character.meshes[m], subject.meshes[m], {}, scene);
+  add_surfaces(robot, looks, scene);
   scene.backdrop = kBackdrop;
   scene.backdrop_rise = 0;
   return scene;
@@ -179,9 +184,24 @@ Result<PoseArgument> choose_pose(const PictureRequest& request, const Character&
   return PoseArgument{RestPose{}, "rest", ""};
 }
 
+/// Reads the robot that was asked for, and adds the tear of its blade to the operations.
+/// @return ok, or the exit code of the failure, which was reported.
+ExitCode read_robot(const PictureRequest& request, const Character& character,
+                    std::optional<RobotTear>& robot, std::vector<Operation>& operations) {
+  if (!request.robot) return ExitCode::ok;
+  robot.emplace();
+  if (request.robot->link.empty())
+    return place_robot(*request.robot, request.reading, kMessages, *robot);
+  const ExitCode code =
+      make_robot_tear(*request.robot, request.reading, character, kMessages, *robot);
+  if (code == ExitCode::ok) operations.push_back(robot->tear);
+  return code;
+}
+
 ExitCode draw_scene(const PictureRequest& request, const LoadedCharacter& loaded,
-                    const Subject& subject, const std::vector<NumberedOperation>& operations,
-                    ProgressBar& progress, Budget& budget) {
+                    const Subject& subject, const std::vector<Mesh>& robot,
+                    const std::vector<NumberedOperation>& operations, ProgressBar& progress,
+                    Budget& budget) {
   const Character& character = *loaded.character;
   std::uint32_t limb = kNone;
   if (request.bone) {
@@ -196,6 +216,8 @@ ExitCode draw_scene(const PictureRequest& request, const LoadedCharacter& loaded
   if (limb == kNone) {
     const std::vector<Vec3d> of_operations = places_of(operations, subject.bounds);
     framed.insert(framed.end(), of_operations.begin(), of_operations.end());
+    for (const Mesh& surface : robot)
+      for (const Vec3f& position : surface.positions) framed.emplace_back(position.cast<double>());
   }
   const Viewport viewport(frame, request.size, framed);
   Marks marks(viewport);
@@ -206,7 +228,7 @@ ExitCode draw_scene(const PictureRequest& request, const LoadedCharacter& loaded
   const std::string missing = looks->missing_textures();
   if (!missing.empty()) warn(request.model.string() + ": " + missing);
   progress.begin_step(2, "drawing");
-  RenderScene scene = make_scene(character, subject, *looks);
+  RenderScene scene = make_scene(character, subject, robot, *looks);
   scene.marks = marks.take();
   const Picture picture = trace(scene, viewport.camera(), request.size);
   budget.end();
@@ -216,11 +238,16 @@ ExitCode draw_scene(const PictureRequest& request, const LoadedCharacter& loaded
   return is_complete && missing.empty() ? ExitCode::ok : ExitCode::findings;
 }
 
-}  // namespace
-
-ExitCode run_picture(const PictureRequest& request) {
+/// Refuses an output that is an input or no file.
+/// @return ok, or the exit code of the failure, which was reported.
+ExitCode check_output(const PictureRequest& request) {
   std::vector<NamedFile> inputs = {{"MODEL", request.model}};
   if (request.operations) inputs.push_back({"--ops", *request.operations});
+  if (request.robot) {
+    inputs.push_back({"--robot", request.robot->robot});
+    if (!request.robot->trajectory.empty())
+      inputs.push_back({"--trajectory", request.robot->trajectory});
+  }
   if (const std::string fault = overwriting(inputs, {{"--output", request.output}});
       !fault.empty()) {
     print_error("sunder: " + fault);
@@ -232,6 +259,27 @@ ExitCode run_picture(const PictureRequest& request) {
   }
   if (const std::string fault = other_ending({"--output", request.output}, "png"); !fault.empty())
     warn(fault);
+  return ExitCode::ok;
+}
+
+/// Refuses operations whose poses the model does not have.
+/// @param logged_count  of those in the log; a robot's is behind them.
+ExitCode check_poses(const PictureRequest& request, const Character& character,
+                     const std::vector<NumberedOperation>& operations, std::size_t logged_count) {
+  for (const NumberedOperation& logged : operations)
+    if (const auto poses = poses_of(*logged.operation, character); !poses)
+      return complain(
+          logged.index < logged_count
+              ? request.operations->string() + ": /operations/" + std::to_string(logged.index)
+              : "--robot",
+          poses.error(), ExitCode::usage, advice_on_names(*logged.operation, character));
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+ExitCode run_picture(const PictureRequest& request) {
+  if (const ExitCode code = check_output(request); code != ExitCode::ok) return code;
   Budget budget(request.budget, request.model.string());
   ProgressBar progress(3);
   progress.begin_step(0, "reading");
@@ -245,14 +293,20 @@ ExitCode run_picture(const PictureRequest& request) {
     if (!read) return complain(request.operations->string(), read.error(), ExitCode::usage);
     log = std::move(*read);
   }
+  const std::size_t logged_count = log.size();
+  std::optional<RobotTear> robot;
+  if (const ExitCode code = read_robot(request, *loaded->character, robot, log);
+      code != ExitCode::ok)
+    return code;
+  const Result<std::vector<Mesh>> surfaces =
+      robot ? robot_surfaces(posed_robot(*robot)) : std::vector<Mesh>();
+  if (!surfaces) return complain("--robot", surfaces.error(), ExitCode::internal_error);
   const Result<std::vector<NumberedOperation>> operations = remaining_operations(log);
   if (!operations)
     return complain(request.operations->string(), operations.error(), ExitCode::usage);
-  for (const NumberedOperation& logged : *operations)
-    if (const auto poses = poses_of(*logged.operation, *loaded->character); !poses)
-      return complain(
-          request.operations->string() + ": /operations/" + std::to_string(logged.index),
-          poses.error(), ExitCode::usage, advice_on_names(*logged.operation, *loaded->character));
+  if (const ExitCode code = check_poses(request, *loaded->character, *operations, logged_count);
+      code != ExitCode::ok)
+    return code;
   const Result<PoseArgument> pose = choose_pose(request, *loaded->character, *operations);
   if (!pose)
     return complain(request.model.string() + (request.pose ? ": --pose" : ": --joints"),
@@ -270,7 +324,8 @@ ExitCode run_picture(const PictureRequest& request) {
     return complain(request.model.string() + ": pose " + pose->name, subject.error(),
                     ExitCode::usage);
   warn_of_other_poses(*loaded->character, *subject, *operations);
-  const ExitCode code = draw_scene(request, *loaded, *subject, *operations, progress, budget);
+  const ExitCode code =
+      draw_scene(request, *loaded, *subject, *surfaces, *operations, progress, budget);
   return code == ExitCode::ok && !has_all_textures ? ExitCode::findings : code;
 }
 

@@ -24,6 +24,11 @@ Result<std::vector<Mesh>> robot_surfaces(const PosedRobot& robot) {
   return surfaces;
 }
 
+void add_surfaces(const std::vector<Mesh>& surfaces, const ModelLooks& looks, RenderScene& scene) {
+  for (const Mesh& surface : surfaces)
+    looks.add_mesh(surface, {surface.positions, surface.normals, {}}, {}, scene);
+}
+
 std::vector<Vec3d> places_near(const std::vector<Mesh>& surfaces, const Vec3d& place,
                                double distance) {
   std::vector<Vec3d> near;

@@ -123,12 +123,6 @@ Camera aim(const ViewFrame& frame, const std::vector<Vec3d>& wound, const Bounds
   return camera;
 }
 
-/// Adds a robot that stands beside the model.
-void add_robot(const std::vector<Mesh>& surfaces, const ModelLooks& looks, RenderScene& scene) {
-  for (const Mesh& surface : surfaces)
-    looks.add_mesh(surface, {surface.positions, surface.normals, {}}, {}, scene);
-}
-
 /// The pieces of an operation that no later one has taken off.
 Result<std::vector<PieceDescription>> pieces_left(const TornModel& torn, const TearReport& report) {
   std::vector<PieceDescription> pieces;
@@ -208,7 +202,7 @@ Status draw_torn(const LoadedCharacter& loaded, std::span<const Operation> histo
   if (const std::string missing = looks->missing_textures(); !missing.empty())
     messages.warn(png.string() + ": " + missing);
   RenderScene scene = make_torn_scene({torn, *closed, open, wounds}, *looks, kThickness * diagonal);
-  add_robot(*beside, *looks, scene);
+  add_surfaces(*beside, *looks, scene);
   if (cut == nullptr) frame = see_wound(scene, frame);  // A cut is seen along its plane.
   // The picture of a cut shows its pieces, that of a bore its surroundings.
   const double margin = cut != nullptr                                   ? 3.1

@@ -10,7 +10,7 @@
 
 #include "tools/messages/json.h"
 #include "tools/model/name_at.h"
-#include "tools/written_weights/length.h"
+#include "tools/model/quantity.h"
 
 namespace sunder::tools {
 namespace {
@@ -24,7 +24,7 @@ std::vector<std::string> split(const std::string& text, char separator) {
   return parts;
 }
 
-/// The index of a material, which logs have as an integer; another text as it is.
+/// The index of a material, which logs have as an integer; its name as it is.
 Json index_json(const std::string& text) {
   std::uint32_t index = 0;
   const char* const end = text.data() + text.size();
@@ -32,39 +32,42 @@ Json index_json(const std::string& text) {
   return error == std::errc() && rest == end ? Json(index) : Json(text);
 }
 
-bool may_be_in_widths(const std::string& key) {
-  return key == "length" || key == "depth" || key == "radius";
+bool is_length(const std::string& key) {
+  return key == "length" || key == "depth" || key == "radius" || key == "width" ||
+         key == "wall_depth" || key == "lip_roll" || key == "chord_tolerance";
 }
 
-bool is_length(const std::string& key) {
-  return may_be_in_widths(key) || key == "width" || key == "wall_depth" || key == "lip_roll" ||
-         key == "chord_tolerance";
+Quantity quantity_of(const std::string& key) {
+  if (is_length(key)) return Quantity::length;
+  if (key == "at") return Quantity::share;
+  return key == "turn" || key == "tilt" ? Quantity::angle : Quantity::number;
+}
+
+/// "0.4w" or "40%": widths of the limb.
+std::optional<double> widths_in(std::string_view text) {
+  if (text.ends_with('%')) return quantity_in(text, Quantity::share);
+  return text.ends_with('w') ? number_in(text.substr(0, text.size() - 1)) : std::nullopt;
 }
 
 /// The value of a field as the log has it.
 Json value_json(const std::string& key, const std::string& text) {
   if (key.ends_with("_material")) return index_json(text);
   if (text == "true" || text == "false") return text == "true";
-  if (const auto number = number_in(text)) return *number;
-  if (const auto metres = parse_length(text); metres && is_length(key)) return *metres;
-  if (text.ends_with('w'))
-    if (const auto widths = number_in(std::string_view(text).substr(0, text.size() - 1)))
-      return {{"widths", *widths}};
+  if (const auto number = quantity_in(text, quantity_of(key))) return *number;
+  if (is_length(key))
+    if (const auto widths = widths_in(text)) return {{"widths", *widths}};
   if (const auto direction = direction_in(text))
     return Json::array({direction->x(), direction->y(), direction->z()});
   return text;
 }
 
-/// "0.4" or "40%".
-std::optional<double> share_in(std::string_view text) {
-  if (!text.ends_with('%')) return number_in(text);
-  const std::optional<double> percent = number_in(text.substr(0, text.size() - 1));
-  return percent ? std::optional(*percent / 100) : std::nullopt;
-}
+std::optional<double> share_in(std::string_view text) { return quantity_in(text, Quantity::share); }
+
+std::optional<double> time_in(std::string_view text) { return quantity_in(text, Quantity::time); }
 
 /// A name and the number behind its last '@'; the whole text if there is none.
 std::pair<std::string, std::optional<double>> name_and_number(
-    const std::string& text, std::optional<double> (*read)(std::string_view) = number_in) {
+    const std::string& text, std::optional<double> (*read)(std::string_view)) {
   const auto [name, at] = split_name_at(text);
   const std::optional<double> number = at ? read(*at) : std::nullopt;
   return number ? std::pair(name, number) : std::pair(text, number);
@@ -72,8 +75,7 @@ std::pair<std::string, std::optional<double>> name_and_number(
 
 Result<Json> pose_json(const std::string& text) {
   if (text == "rest" || text == "bind") return Json(text);
-  const auto [clip, time] =
-      name_and_number(text.ends_with('s') ? text.substr(0, text.size() - 1) : text);
+  const auto [clip, time] = name_and_number(text, time_in);
   if (!time || *time < 0)
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "--pose: '%.100s' is no pose; expected rest, bind or CLIP@TIME with "
@@ -83,7 +85,8 @@ Result<Json> pose_json(const std::string& text) {
 }
 
 /// Adds a field and its value, "turn=30", to an operation of a log.
-Status add_field(const std::string& field, Json& operation) {
+/// @param material  becomes the name of a material, if the field has one.
+Status add_field(const std::string& field, Json& operation, std::string& material) {
   const std::size_t equals = field.find('=');
   const std::string key = field.substr(0, equals);
   if (key == "pose")
@@ -94,11 +97,18 @@ Status add_field(const std::string& field, Json& operation) {
                            key.c_str());
   const Json value =
       equals == std::string::npos ? Json(true) : value_json(key, field.substr(equals + 1));
-  if (value.is_object() && is_length(key) && !may_be_in_widths(key))
-    return Status::failure(StatusCode::malformed_file, kNone,
-                           "%s: '%.60s': expected metres; only length, depth and radius may be in "
-                           "widths",
-                           key.c_str(), field.c_str() + equals + 1);
+  if (key.ends_with("_material") && value.is_string()) {
+    // A name is looked up when the model is loaded; an index in its place checks that the
+    // operation has the field.
+    material = value.get<std::string>();
+    operation[key] = 0;
+    return {};
+  }
+  if (quantity_of(key) != Quantity::number && value.is_string())
+    return Status::failure(
+        StatusCode::malformed_file, kNone, "%.40s: '%.60s' is no number; expected one%s%s",
+        key.c_str(), field.c_str() + equals + 1, units_of(quantity_of(key)),
+        is_length(key) && key != "chord_tolerance" ? ", or widths of the limb: 0.4w, 40%" : "");
   operation[key] = value;
   return {};
 }
@@ -137,7 +147,8 @@ Result<TearRequest::Aimed> parse_aimed_option(const std::string& kind, const std
   if (share) operation["at"] = *share;
   aimed.has_share = share.has_value();
   for (std::size_t i = 1; i < fields.size(); ++i)
-    if (const Status status = add_field(fields[i], operation); !status) return status;
+    if (const Status status = add_field(fields[i], operation, aimed.material); !status)
+      return status;
   aimed.has_share |= operation.contains("at");
   if (kind == "sever")
     if (const Status status = read_detaching(operation, aimed); !status) return status;
@@ -158,6 +169,10 @@ Result<TearRequest::Aimed> parse_aimed_option(const std::string& kind, const std
   if (fault.starts_with(kPlace)) fault.remove_prefix(kPlace.size());
   if (fault.starts_with("/") || fault.starts_with(":")) fault.remove_prefix(1);
   while (fault.starts_with(' ')) fault.remove_prefix(1);
+  // "depth: depth is -1 m": the text of a range names its field.
+  if (const std::size_t colon = fault.find(": "); colon != std::string_view::npos)
+    if (fault.substr(colon + 2).starts_with(std::string(fault.substr(0, colon)) + " is "))
+      fault.remove_prefix(colon + 2);
   return Status::failure(StatusCode::malformed_file, kNone, "%.200s", std::string(fault).c_str());
 }
 

@@ -16,8 +16,9 @@
 namespace sunder::tools {
 namespace {
 
-/// The posed faces that all attempts together may test: about three seconds.
-constexpr std::size_t kMostPosedFaces = 8'000'000;
+/// The posed faces that all attempts together may test, and those that a miss is measured with:
+/// each about a third of a second.
+constexpr std::size_t kMostPosedFaces = 1'000'000;
 constexpr std::size_t kMostMissedPoses = 32;
 constexpr std::size_t kTimesPerClip = 8;
 
@@ -166,6 +167,62 @@ bool has_retired(const TornModel& model) {
   return false;
 }
 
+std::size_t face_count(const Character& character) {
+  std::size_t count = 0;
+  for (const Mesh& mesh : character.meshes) count += mesh.triangles.size();
+  return count;
+}
+
+/// Finds where an operation comes nearest to the surface, one of its poses after the other.
+class MissMeasure {
+ public:
+  MissMeasure(const TornModel& model, PosedSource& source)
+      : model_(model), source_(source), is_whole_(!has_retired(model)) {
+    miss_.distance = std::numeric_limits<double>::infinity();
+  }
+
+  /// @return whether it comes nearer than in the poses before.
+  Result<bool> look(const Reach& reach) {
+    const Result<ModelPose> pose = make_pose(model_.source(), reach.pose);
+    if (!pose) return pose.error();
+    PosedSurface torn;
+    if (!is_whole_) {
+      Result<PosedSurface> surface = pose_surface(model_.character(), *pose);
+      if (!surface) return surface.error();
+      torn = std::move(*surface);
+    }
+    const Result<const PosedSurface*> whole = is_whole_ ? source_.in(*pose) : &torn;
+    if (!whole) return whole.error();
+    const Nearest nearest = nearest_of(**whole, reach);
+    const bool is_nearer = nearest.distance < miss_.distance;
+    if (!is_nearer && !miss_.bounds.is_empty()) return false;
+    miss_.bounds = (*whole)->bounds;
+    if (!is_nearer) return false;
+    miss_.distance = nearest.distance;
+    miss_.blade = reach.first_blade + static_cast<std::uint32_t>(nearest.part / 2);
+    miss_.place.reset();
+    if (reach.plane || nearest.distance == 0) return true;
+    const NearestPlaces places =
+        nearest_places(reach.shape[nearest.part], (*whole)->triangles[nearest.triangle]);
+    miss_.place = places.of_first;
+    miss_.way = places.of_second - places.of_first;
+    return true;
+  }
+
+  [[nodiscard]] const Miss& miss() const { return miss_; }
+
+ private:
+  static Nearest nearest_of(const PosedSurface& surface, const Reach& reach) {
+    if (reach.plane) return {distance_between(surface, reach), 0, 0};
+    return find_nearest(surface, reach.shape);
+  }
+
+  const TornModel& model_;
+  PosedSource& source_;
+  bool is_whole_;
+  Miss miss_;
+};
+
 const char* what_passes(const Operation& operation) {
   if (std::holds_alternative<TearOperation>(operation)) return "the blade passes";
   if (const auto* const cut = std::get_if<CutOperation>(&operation))
@@ -176,25 +233,25 @@ const char* what_passes(const Operation& operation) {
 }  // namespace
 
 Result<Miss> measure_miss(const Operation& operation, const TornModel& model, PosedSource& source) {
-  Miss miss;
-  miss.distance = std::numeric_limits<double>::infinity();
-  const bool is_whole = !has_retired(model);
-  for (const Reach& reach : reaches_of(operation)) {
-    const Result<ModelPose> pose = make_pose(model.source(), reach.pose);
-    if (!pose) return pose.error();
-    PosedSurface torn;
-    if (!is_whole) {
-      Result<PosedSurface> surface = pose_surface(model.character(), *pose);
-      if (!surface) return surface.error();
-      torn = std::move(*surface);
-    }
-    const Result<const PosedSurface*> whole = is_whole ? source.in(*pose) : &torn;
-    if (!whole) return whole.error();
-    const double distance = distance_between(**whole, reach);
-    if (distance < miss.distance || miss.bounds.is_empty()) miss.bounds = (*whole)->bounds;
-    miss.distance = std::min(miss.distance, distance);
+  const std::vector<Reach> reaches = reaches_of(operation);
+  MissMeasure measure(model, source);
+  // A blade that moves while a clip runs has a pose for each of its places, up to thousands. They
+  // are tried in steps, and all of them around the nearest.
+  const std::size_t affordable =
+      std::max<std::size_t>(8, kMostPosedFaces / 2 / (face_count(model.source()) + 1));
+  const std::size_t step = 1 + reaches.size() / affordable;
+  std::size_t nearest = 0;
+  for (std::size_t i = 0; i < reaches.size(); i += step) {
+    const Result<bool> is_nearer = measure.look(reaches[i]);
+    if (!is_nearer) return is_nearer.error();
+    if (*is_nearer) nearest = i;
   }
-  return miss;
+  const std::size_t around = std::min(step, affordable / 2);
+  for (std::size_t i = nearest - std::min(nearest, around - 1);
+       i < std::min(reaches.size(), nearest + around); ++i)
+    if (const Result<bool> is_nearer = measure.look(reaches[i]); !is_nearer)
+      return is_nearer.error();
+  return measure.miss();
 }
 
 Result<std::string> cause_of_miss(const Operation& operation, const Miss& miss,
@@ -220,6 +277,9 @@ std::string miss_text(const Operation& operation, const Miss& miss) {
                             : std::string(", without opening a face, along the surface");
   text += ", which spans " + point_text(miss.bounds.least) + " to " +
           point_text(miss.bounds.greatest) + " in this pose";
+  if (miss.place)
+    text += "; it comes nearest at " + point_text(*miss.place) + ", and moved by " +
+            point_text(miss.way) + " it would touch it";
   return miss.cause.empty() ? text : text + "; " + miss.cause;
 }
 
@@ -228,6 +288,10 @@ Json to_json(const Miss& miss) {
   json["cause"] = miss.cause.empty() ? Json() : Json(miss.cause);
   if (miss.bounds.is_empty()) return json;
   json["distance"] = miss.distance;
+  if (miss.place) {
+    json["place"] = vector_json(*miss.place);
+    json["way"] = vector_json(miss.way);
+  }
   json["bounds"] = {{"min", vector_json(miss.bounds.least)},
                     {"max", vector_json(miss.bounds.greatest)}};
   return json;

@@ -4,6 +4,7 @@
 #include <sunder/tear/torn_model.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "tools/model/posed_model.h"
@@ -17,6 +18,12 @@ struct Miss {
   /// Between the posed surface and the sweep of the blade, the plane within its bounds, or the axis
   /// of the bore; metres.
   double distance = 0.0;
+  /// Where the blade, the bounds or the axis came nearest, and the way from there to the surface:
+  /// moved by it, they would touch. Empty for a whole plane, and where something was met.
+  std::optional<Vec3d> place = {};
+  Vec3d way = Vec3d::Zero();
+  /// Of a tear: the blade that ends the nearest segment of its stroke.
+  std::uint32_t blade = 0;
   Bounds bounds;      ///< Of the posed surface.
   std::string cause;  ///< What would meet the surface; empty if there is no evidence.
 };

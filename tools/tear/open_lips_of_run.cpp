@@ -4,10 +4,11 @@
 #include <utility>
 #include <vector>
 
+#include "core/internal/find_named.h"
 #include "io/internal/mesh_nodes.h"
 #include "tools/messages/printed.h"
-#include "tools/model/find_clip.h"
 #include "tools/model/history.h"
+#include "tools/model/named_material.h"
 #include "tools/model/robot_joints.h"
 #include "tools/model/surface_kinds.h"
 #include "tools/open/opened_character.h"
@@ -23,11 +24,6 @@ bool tears(const Operation& operation) {
          std::holds_alternative<DrillOperation>(operation);
 }
 
-std::optional<std::uint32_t> clip_of(const ClipPose& pose, const Character& source) {
-  if (const auto* const index = std::get_if<std::uint32_t>(&pose.clip)) return *index;
-  return find_clip(source, std::get<std::string>(pose.clip));
-}
-
 /// Where clips show the operations that were not undone.
 std::vector<ClipMoment> moments_of(const TearRun& run) {
   std::vector<ClipMoment> moments;
@@ -36,20 +32,10 @@ std::vector<ClipMoment> moments_of(const TearRun& run) {
     const std::vector<PoseSpec> poses = pose_specs_of(*numbered.operation);
     const auto* const in_clip = poses.empty() ? nullptr : std::get_if<ClipPose>(&poses.front());
     if (in_clip == nullptr) continue;
-    if (const auto clip = clip_of(*in_clip, run.model.source()))
+    if (const auto clip = find_named_clip(run.model.source(), in_clip->clip))
       moments.push_back({*clip, in_clip->time});
   }
   return moments;
-}
-
-/// The material that an operation names for its walls or caps; kNone if it names none.
-std::uint32_t named_material(const Operation& operation) {
-  if (const auto* const tear = std::get_if<TearOperation>(&operation))
-    return tear->options.wall_material;
-  if (const auto* const cut = std::get_if<CutOperation>(&operation)) return cut->cut.cap_material;
-  if (const auto* const drill = std::get_if<DrillOperation>(&operation))
-    return drill->bore.wall_material;
-  return kNone;
 }
 
 /// Which parts of wounds are flesh.
@@ -61,7 +47,7 @@ class FleshMaterials {
     if (!kinds) return kinds.error();
     FleshMaterials materials(run, std::move(*kinds));
     for (const Operation& operation : value_of(run.model.history()))
-      materials.named_.insert(named_material(operation));
+      materials.named_.insert(material_field(operation).material);
     return materials;
   }
 

@@ -7,32 +7,10 @@
 #include <variant>
 
 #include "tools/messages/printed.h"
-#include "tools/model/find_clip.h"
 #include "tools/model/named_poses.h"
 
 namespace sunder::tools {
 namespace {
-
-template <class Aimed>
-auto& pose_of(Aimed& operation) {
-  return std::visit(
-      [](auto& of) -> auto& { return of.pose; }, operation);
-}
-
-/// An operation of the command line, whose clip may be named without its namespace.
-AimedOperation with_clip(AimedOperation operation, const Character& source) {
-  auto* const of_clip = std::get_if<ClipPose>(&pose_of(operation));
-  const auto* const name = of_clip ? std::get_if<std::string>(&of_clip->clip) : nullptr;
-  const auto clip = name ? find_clip(source, *name) : std::nullopt;
-  if (clip) of_clip->clip = *clip;
-  return operation;
-}
-
-/// As it is meant: of an aimed operation of the command line, with its clip.
-LoggedOperation meant(const WantedOperation& wanted, const Character& source) {
-  const auto* const aimed = std::get_if<AimedOperation>(&wanted.operation);
-  return aimed != nullptr && wanted.option ? with_clip(*aimed, source) : wanted.operation;
-}
 
 /// "+z", "-x" or "0.6/0/0.8".
 std::string direction_text(const Vec3d& direction) {
@@ -116,7 +94,7 @@ Result<std::vector<Operation>> detachments(const SeverOperation& sever, bool tak
 }  // namespace
 
 Result<PlainTears> plain_tears(const WantedOperation& wanted, const TearRun& run) {
-  const LoggedOperation operation = meant(wanted, run.model.source());
+  const LoggedOperation& operation = wanted.operation;
   PlainTears tears;
   if (const auto* const plain = std::get_if<Operation>(&operation)) {
     tears.operation = *plain;
@@ -140,8 +118,7 @@ Result<PlainTears> plain_tears(const WantedOperation& wanted, const TearRun& run
 }
 
 std::string advice_on(const WantedOperation& wanted, const Character& source) {
-  return std::visit([&](const auto& of) { return advice_on_names(of, source); },
-                    meant(wanted, source));
+  return std::visit([&](const auto& of) { return advice_on_names(of, source); }, wanted.operation);
 }
 
 }  // namespace sunder::tools

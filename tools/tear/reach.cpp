@@ -17,11 +17,13 @@ void add_segment(const Blade& from, const Blade& to, std::vector<Corners>& shape
 std::vector<Reach> reaches_of_tear(const TearOperation& tear) {
   std::vector<Reach> reaches(1);
   reaches[0].pose = tear.pose;
+  reaches[0].first_blade = 1;
   auto change = tear.pose_changes.begin();
   for (std::size_t i = 1; i < tear.stroke.size(); ++i) {
     if (change != tear.pose_changes.end() && change->blade == i) {
       reaches.push_back({});
       reaches.back().pose = change->pose;
+      reaches.back().first_blade = static_cast<std::uint32_t>(i);
       ++change;
     }
     add_segment(tear.stroke[i - 1], tear.stroke[i], reaches.back().shape);

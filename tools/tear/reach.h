@@ -16,6 +16,7 @@ struct Reach {
   std::vector<Corners> shape;     ///< Triangles; empty for a whole plane.
   std::optional<PlaneCut> plane;  ///< A whole plane.
   double radius = 0.0;            ///< Of a bore.
+  std::uint32_t first_blade = 0;  ///< Of a tear: the one that ends the first two triangles.
 };
 
 /// One entry per pose of the operation; empty if it passes through nothing, like `undo`.

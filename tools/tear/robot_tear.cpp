@@ -55,7 +55,9 @@ std::optional<RobotMotion> read_motion(const RobotTearRequest& request, const Mo
   }
   warn_of_protection(request.robot.string(), robot->model.report, Messages(Verbosity::normal));
   made.robot = std::move(*robot);
-  const Result<RobotTrajectory> trajectory = load_trajectory(request.trajectory);
+  const Result<RobotTrajectory> trajectory = request.trajectory.empty()
+                                                 ? RobotTrajectory{{}, {0.0}, {}}
+                                                 : load_trajectory(request.trajectory);
   if (!trajectory) {
     code = complain(request.trajectory.string(), trajectory.error(), ExitCode::usage);
     return {};
@@ -75,6 +77,14 @@ Affine3d world_from_root(const RobotTearRequest& request, const RobotTear& made)
   return request.place * made.robot.model_from_root;
 }
 
+/// Poses the robot as it stands at a time.
+Status pose_robot(const RobotTearRequest& request, const RobotMotion& motion, double time,
+                  RobotTear& made) {
+  made.last_pose.model_from_bone.resize(motion.link_count());
+  made.last_pose.morph_weights = made.robot.model.character->rest_morph_weights;
+  return motion.pose_at(time, made.last_pose.model_from_bone, world_from_root(request, made));
+}
+
 /// Sweeps the blade and poses the robot as it stands at the end.
 Result<BladeSweep> sweep(const RobotTearRequest& request, const RobotMotion& motion,
                          std::uint32_t link, RobotTear& made) {
@@ -86,10 +96,9 @@ Result<BladeSweep> sweep(const RobotTearRequest& request, const RobotMotion& mot
   if (!swept) return swept;
   made.first_time = swept->times.front();
   made.last_time = swept->times.back();
-  made.last_pose.model_from_bone.resize(motion.link_count());
-  made.last_pose.morph_weights = made.robot.model.character->rest_morph_weights;
-  const Status status = motion.pose_at(made.last_time, made.last_pose.model_from_bone, place);
-  if (!status) return status;
+  made.times = swept->times;
+  if (const Status status = pose_robot(request, motion, made.last_time, made); !status)
+    return status;
   return swept;
 }
 
@@ -122,6 +131,17 @@ ExitCode make_robot_tear(const RobotTearRequest& request, const ModelReading& re
                        request.link.c_str(), made.tear.stroke.size(), made.first_time,
                        made.last_time));
   return ExitCode::ok;
+}
+
+ExitCode place_robot(const RobotTearRequest& request, const ModelReading& reading,
+                     const Messages& messages, RobotTear& made) {
+  ExitCode code = ExitCode::ok;
+  const std::optional<RobotMotion> motion = read_motion(request, reading, made, code);
+  if (!motion) return code;
+  for (const std::string& warning : made.warnings) messages.warn(warning);
+  made.last_time = motion->last_time();
+  const Status status = pose_robot(request, *motion, made.last_time, made);
+  return status ? ExitCode::ok : complain("--robot", status, ExitCode::usage);
 }
 
 Json robot_tear_json(const RobotTearRequest& request, const RobotTear& made) {

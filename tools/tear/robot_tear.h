@@ -20,6 +20,7 @@ struct RobotTear {
   LoadedRobot robot;
   TearOperation tear;
   double first_time = 0, last_time = 0;  ///< Of the blades, seconds.
+  std::vector<double> times = {};        ///< Of each blade, seconds.
   ModelPose last_pose;                   ///< Of the robot's character, in the character's space.
   std::vector<std::string> warnings;     ///< Of the file, and of exceeded limits.
   Json excesses = Json::array();
@@ -31,6 +32,11 @@ struct RobotTear {
 [[nodiscard]] ExitCode make_robot_tear(const RobotTearRequest& request, const ModelReading& reading,
                                        const Character& character, const Messages& messages,
                                        RobotTear& made);
+
+/// Loads the robot and poses it as it stands at the end of its trajectory; at rest without one.
+/// @return as make_robot_tear().
+[[nodiscard]] ExitCode place_robot(const RobotTearRequest& request, const ModelReading& reading,
+                                   const Messages& messages, RobotTear& made);
 
 /// For the report.
 [[nodiscard]] Json robot_tear_json(const RobotTearRequest& request, const RobotTear& made);

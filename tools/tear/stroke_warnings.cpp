@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <variant>
 
+#include "core/internal/find_named.h"
 #include "tools/messages/printed.h"
 #include "tools/model/history.h"
 
@@ -12,11 +14,8 @@ namespace sunder::tools {
 namespace {
 
 const Clip* playing_clip(const ClipPose& pose, const Character& character) {
-  if (const auto* const index = std::get_if<std::uint32_t>(&pose.clip))
-    return *index < character.clips.size() ? &character.clips[*index] : nullptr;
-  const auto found =
-      std::ranges::find(character.clips, std::get<std::string>(pose.clip), &Clip::name);
-  return found == character.clips.end() ? nullptr : &*found;
+  const std::optional<std::uint32_t> found = find_named_clip(character, pose.clip);
+  return found ? &character.clips[*found] : nullptr;
 }
 
 Vec3d mean_direction(const Stroke& stroke) {

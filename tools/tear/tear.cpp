@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/internal/find_named.h"
 #include "tools/messages/output_file.h"
 #include "tools/messages/printed.h"
 #include "tools/messages/progress_bar.h"
@@ -18,6 +19,7 @@
 #include "tools/model/coupled_refits.h"
 #include "tools/model/load_notes.h"
 #include "tools/model/model_check.h"
+#include "tools/model/named_material.h"
 #include "tools/model/named_poses.h"
 #include "tools/model/robot_joints.h"
 #include "tools/picture/torn_picture.h"
@@ -28,6 +30,7 @@
 #include "tools/tear/tear_report.h"
 #include "tools/tear/tear_run.h"
 #include "tools/tear/tear_summary.h"
+#include "tools/tear/validation_notes.h"
 #include "tools/value_of.h"
 #include "tools/verbs.h"
 #include "tools/written_weights/certified_report.h"
@@ -41,11 +44,6 @@ double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-/// Whether --influences gives a number.
-bool limits_influences(const SaveOptions& save) {
-  return save.maximum_influences != 0 && save.maximum_influences != kAllInfluences;
-}
-
 Result<Weighing> choose_weighing(const TearRequest& request,
                                  const std::shared_ptr<const Character>& character) {
   Weighing weighing;
@@ -56,7 +54,7 @@ Result<Weighing> choose_weighing(const TearRequest& request,
   if (*request.weights != WeightPolicy::refit) return weighing;
   if (request.refit_over)
     for (const RefitImportance::OfClip& of : request.refit_over->importance.of_clip)
-      if (std::ranges::find(character->clips, of.clip, &Clip::name) == character->clips.end())
+      if (!find_clip(*character, of.clip))
         return Status::failure(StatusCode::not_found, kNone, "no clip is named '%.100s'",
                                of.clip.c_str());
   auto refit = choose_refit(*character, request.refit_over);
@@ -163,6 +161,8 @@ ExitCode finish(TearRun& run, Clock::time_point begin) {
     run.has_picture = draw_picture(run, *request.picture);
     run.has_findings |= !run.has_picture;
   }
+  if (!request.dry_run)
+    for (const std::string& note : validation_notes(run)) run.messages.say(note);
   if (run.certified) run.messages.say(certificate_line(*run.certified, *request.maximum_error));
   run.messages.detail(times_line(run.times, seconds_since(begin)));
   if (reports_to_stdout(request))
@@ -172,20 +172,34 @@ ExitCode finish(TearRun& run, Clock::time_point begin) {
   return run.has_findings ? ExitCode::findings : ExitCode::ok;
 }
 
-/// The operations of the log, then those of the command line.
-Result<std::vector<WantedOperation>> wanted_operations(const TearRequest& request) {
-  std::vector<WantedOperation> wanted;
+/// Reads the operations of the log, then those of the command line.
+/// @return ok, or the exit code of the failure, which was reported.
+ExitCode read_operations(const TearRequest& request, const LoadedCharacter& loaded,
+                         std::vector<WantedOperation>& wanted) {
   if (!request.operations.empty()) {
-    auto logged = load_aimed_operations(request.operations);
-    if (!logged) return logged.error();
-    if (const Status status = provide_coupled_refits(*logged); !status) return status;
-    for (LoggedOperation& operation : *logged)
-      wanted.push_back({std::move(operation), "/operations/" + std::to_string(wanted.size()),
-                        request.operations.string()});
+    const std::string file = request.operations.string();
+    auto logged = load_aimed_operations(request.operations, loaded.character.get());
+    if (!logged) return complain(file, logged.error(), ExitCode::usage);
+    if (const Status status = provide_coupled_refits(*logged); !status)
+      return complain(file, status, ExitCode::usage);
+    for (LoggedOperation& operation : *logged) {
+      const std::string place = "/operations/" + std::to_string(wanted.size());
+      if (const Status status = check_material(operation, loaded.source.get()); !status)
+        return complain(file + ": " + place, status, ExitCode::usage);
+      wanted.push_back({std::move(operation), place, file});
+    }
   }
-  for (const TearRequest::Aimed& aimed : request.aimed)
+  for (TearRequest::Aimed aimed : request.aimed) {
+    if (!aimed.material.empty()) {
+      const Result<std::uint32_t> material = find_material(*loaded.character, aimed.material);
+      if (!material) return complain(aimed.option, material.error(), ExitCode::usage);
+      set_material(aimed.operation, *material);
+    }
+    if (const Status status = check_material(aimed.operation, loaded.source.get()); !status)
+      return complain(aimed.option, status, ExitCode::usage);
     wanted.push_back({aimed.operation, aimed.option, {}, aimed});
-  return wanted;
+  }
+  return ExitCode::ok;
 }
 
 /// With --robot, adds the tear of its blade.
@@ -208,20 +222,22 @@ ExitCode run_tear(const TearRequest& request) {
   const Messages messages(request.verbosity);
   Budget budget(request.budget, request.model.string());
   if (const ExitCode code = check_outputs(request); code != ExitCode::ok) return code;
-  Result<std::vector<WantedOperation>> operations = wanted_operations(request);
-  if (!operations)
-    return complain(request.operations.string(), operations.error(), ExitCode::usage);
-
-  ProgressBar progress(operations->size() + 3);
-  progress.begin_step(0, "reading");
   const std::string place = request.model.string();
   LoadOptions load = load_options(request.reading);
   load.keep_stored_influences = request.maximum_error.has_value();
-  const Result<LoadedCharacter> loaded = load_character(request.model, load);
+  const Result<LoadedCharacter> loaded = [&] {
+    ProgressBar reading(1);
+    reading.begin_step(0, "reading");
+    return load_character(request.model, load);
+  }();
   if (!loaded) return complain(place, loaded.error(), ExitCode::unreadable_input);
   const double loading = seconds_since(begin);
   warn_of_repairs(place, loaded->report, messages);
   warn_of_options(request, *loaded->character, messages);
+  std::vector<WantedOperation> operations;
+  if (const ExitCode code = read_operations(request, *loaded, operations); code != ExitCode::ok)
+    return code;
+  ProgressBar progress(operations.size() + 3);
   Result<TornModel> model = TornModel::create(loaded->character, budget.capacity());
   if (!model) return complain(place, model.error(), ExitCode::internal_error);
   const Result<Weighing> weighing = choose_weighing(request, loaded->character);
@@ -247,10 +263,10 @@ ExitCode run_tear(const TearRequest& request) {
   if (request.pieces)
     run.pieces.emplace(request.pieces_are_animated ? PieceMotion::animated : PieceMotion::frozen);
   run.has_findings = has_losses(loaded->report);
-  if (const ExitCode code = add_robot_tear(run, *operations); code != ExitCode::ok) return code;
-  if (const ExitCode code = play_operations(*operations, run, progress); code != ExitCode::ok)
+  if (const ExitCode code = add_robot_tear(run, operations); code != ExitCode::ok) return code;
+  if (const ExitCode code = play_operations(operations, run, progress); code != ExitCode::ok)
     return code;
-  progress.begin_step(operations->size() + 2, "writing");
+  progress.begin_step(operations.size() + 2, "writing");
   return finish(run, begin);
 }
 

@@ -54,6 +54,15 @@ Status describe(const Played& played, TearRun& run) {
   return {};
 }
 
+/// Which way to move a robot whose blade missed, and when it was nearest.
+std::string robot_advice(const RobotTear& robot, const Miss& miss) {
+  if (!miss.place || miss.blade >= robot.times.size()) return {};
+  return printed(
+      "; that is at %.4g s of the motion: add %s to --robot-place, and the depth of the "
+      "tear in the same direction; `sunder picture --robot` shows it",
+      robot.times[miss.blade], point_text(miss.way).c_str());
+}
+
 /// Says by how much an operation missed, and adds that to its report.
 Status describe_miss(const Played& played, TearRun& run, Json& report) {
   Result<Miss> miss = measure_miss(played.operation, run.model, run.posed_source);
@@ -64,8 +73,9 @@ Status describe_miss(const Played& played, TearRun& run, Json& report) {
     if (!cause) return cause.error();
     miss->cause = *cause;
   }
-  const std::string text =
-      played.place + ": " + played.outcome.op + " missed: " + miss_text(played.operation, *miss);
+  const std::string text = played.place + ": " + played.outcome.op +
+                           " missed: " + miss_text(played.operation, *miss) +
+                           (played.place == "--robot" ? robot_advice(*run.robot, *miss) : "");
   if (run.messages.is_quiet())
     print_error("sunder: " + text);  // A stroke that misses is never silent.
   else

@@ -7,14 +7,19 @@
 #include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "tools/messages/json_file.h"
 #include "tools/messages/lines.h"
 #include "tools/messages/messages.h"
 #include "tools/messages/overwriting.h"
+#include "tools/messages/printed.h"
 #include "tools/messages/text_file.h"
 #include "tools/model/bone_names.h"
 #include "tools/model/load_notes.h"
+#include "tools/model/name_advice.h"
+#include "tools/transfer/copy_clips.h"
+#include "tools/transfer/place_question.h"
 #include "tools/transfer/transfer_report.h"
 #include "tools/verbs.h"
 #include "tools/written_weights/certified_report.h"
@@ -24,6 +29,17 @@ namespace sunder::tools {
 namespace {
 
 constexpr float kLocked = 0.5f;
+/// Below this share of matches the models hardly stand where they should.
+constexpr double kAskForPlace = 0.2;
+
+/// Bones of the source like one that --bones names in vain.
+std::string advice_on_bones(const TransferOptions& options, const Character& source) {
+  std::vector<std::string> names;
+  for (const Bone& bone : source.skeleton.bones) names.push_back(bone.name);
+  for (const std::string& wanted : options.bones)
+    if (std::ranges::find(names, wanted) == names.end()) return name_advice(wanted, "bones", names);
+  return {};
+}
 
 /// The first output that would overwrite an input or another output; empty if there is none.
 std::string overwriting_output(const TransferRequest& request) {
@@ -124,6 +140,27 @@ ExitCode write_files(const TransferRequest& request, const LoadedCharacter& targ
   return ExitCode::ok;
 }
 
+/// What to do about a transfer that failed.
+std::string advice_on_failure(const Status& status, const TransferOptions& options,
+                              const Character& source, const Character& target) {
+  return status.text().starts_with("no vertex of the target matches")
+             ? " " + question_of_place(source, target)
+             : advice_on_bones(options, source);
+}
+
+/// Copies the source's clips if that is wanted. @return a line that says so, or offers it.
+Result<std::string> offer_clips(const TransferRequest& request, const Character& source,
+                                TransferResult& result) {
+  if (source.clips.empty()) return std::string();
+  if (!request.copies_clips)
+    return printed(
+        "  the source has %zu clips, which the target does not get; --clips writes them too",
+        source.clips.size());
+  const Result<std::size_t> count = copy_clips(source, result);
+  if (!count) return count.error();
+  return printed("  %zu of the source's %zu clips are written too", *count, source.clips.size());
+}
+
 }  // namespace
 
 ExitCode run_transfer(const TransferRequest& request) {
@@ -145,9 +182,17 @@ ExitCode run_transfer(const TransferRequest& request) {
   TransferOptions options = request.options;
   if (const ExitCode code = read_rules(request, *target->character, options); code != ExitCode::ok)
     return code;
-  const Result<TransferResult> result =
-      transfer_weights(*source->character, *target->character, options);
-  if (!result) return complain(request.target.string(), result.error(), ExitCode::usage);
+  Result<TransferResult> result = transfer_weights(*source->character, *target->character, options);
+  if (!result)
+    return complain(
+        request.target.string(), result.error(), ExitCode::usage,
+        advice_on_failure(result.error(), options, *source->character, *target->character));
+  if (result->matched_share() < kAskForPlace)
+    messages.warn(request.target.string() + ": " +
+                  printed("only %.3g %% of the vertices match; ", 100 * result->matched_share()) +
+                  question_of_place(*source->character, *target->character));
+  const Result<std::string> clips = offer_clips(request, *source->character, *result);
+  if (!clips) return complain("--clips", clips.error(), ExitCode::usage);
   std::optional<CertifiedWeights> certified;
   if (const std::optional<MaximumError>& wanted = request.maximum_error) {
     Result<CertifiedWeights> weights = certify_weights(result->character, *target, *wanted);
@@ -159,6 +204,7 @@ ExitCode run_transfer(const TransferRequest& request) {
   if (const ExitCode code = write_files(request, *target, *result, certified); code != ExitCode::ok)
     return code;
   Lines lines = transfer_table(request, *result);
+  if (!clips->empty()) lines.add(*clips);
   if (certified) lines.add(certificate_line(*certified, *request.maximum_error));
   print(lines);
   const bool has_findings = has_losses(source->report) || has_losses(target->report) ||

@@ -31,6 +31,11 @@ struct PruningLoss {
 /// SaveOptions::maximum_influences as --influences takes it: "source", "4", "8" or "all".
 [[nodiscard]] std::string influences_name(std::uint32_t maximum);
 
+/// Whether --influences gives a number.
+[[nodiscard]] inline bool limits_influences(const SaveOptions& save) {
+  return save.maximum_influences != 0 && save.maximum_influences != kAllInfluences;
+}
+
 /// "float", "u16" or "u8", as --weights-as takes it.
 [[nodiscard]] const char* weight_format_name(WeightFormat format);
 

@@ -48,7 +48,7 @@ void adopt(const Character& source, TargetBones& bones) {
     if (bone.parent != kNone) bone.parent = bones.of_source[bone.parent];
     for (int n = 2; !names.insert(bone.name).second; ++n)
       bone.name = source.skeleton.bones[i].name + "." + std::to_string(n);
-    bones.of_source[i] = static_cast<Index>(bones.skeleton.bones.size());
+    bones.of_source[i] = bones.counterparts[i] = static_cast<Index>(bones.skeleton.bones.size());
     bones.skeleton.bones.push_back(std::move(bone));
     bones.model_from_bone.push_back(bind.model_from_bone[i]);
   }
@@ -56,6 +56,7 @@ void adopt(const Character& source, TargetBones& bones) {
 
 void use_counterparts(const Character& source, const BoneMatch& match,
                       const std::vector<bool>& is_weighted, TargetBones& bones) {
+  bones.counterparts = match.target_of_source;
   Index first = kNone;
   for (const Index counterpart : match.target_of_source)
     if (first == kNone) first = counterpart;
@@ -122,8 +123,9 @@ void write_mesh(const Skin& skin, const std::vector<WeightRow>& rows, Mesh& mesh
 }  // namespace
 
 TargetBones choose_bones(const Character& source, const Character& target, const BoneMatch& match) {
-  TargetBones bones{target.skeleton, or_throw(bind_pose(target)).model_from_bone, {}, {}};
+  TargetBones bones{target.skeleton, or_throw(bind_pose(target)).model_from_bone, {}, {}, {}};
   bones.of_source.assign(source.skeleton.bones.size(), kNone);
+  bones.counterparts = bones.of_source;
   const std::vector<bool> in_source = weighted_bones(source), in_target = weighted_bones(target);
   // The skeleton is the source's if it has all bones that the source's weights need, or if its own
   // weights are on some of them; one bone of the same name is not enough.

@@ -16,7 +16,8 @@ struct TargetBones {
   /// Per bone of the source: the bone that takes its weight. Its counterpart, else that of its
   /// nearest ancestor that has one, else the first counterpart of all.
   std::vector<Index> of_source;
-  std::vector<Index> lost;  ///< Bones of the source with weight but without counterpart.
+  std::vector<Index> counterparts;  ///< Per bone of the source, the same bone; kNone: none.
+  std::vector<Index> lost;          ///< Bones of the source with weight but without counterpart.
   bool has_adopted = false;
 };
 

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <tuple>
 
 #include "core/internal/bone_sides.h"
 #include "core/internal/out_of_memory.h"
+#include "validation/internal/option_ranges.h"
 #include "validation/match/skin_difference.h"
 #include "validation/transfer/finish_rows.h"
 #include "validation/transfer/inpaint.h"
@@ -20,17 +22,16 @@ namespace {
 using namespace validation;
 
 Status check_options(const TransferOptions& options, const Character& target) {
-  const auto in_range = [](double value, double low, double high) {
-    return value >= low && value <= high;  // false for NaN
-  };
-  const auto invalid = [](const char* what) {
-    return Status::failure(StatusCode::invalid_argument, kNone, "transfer_weights: %s", what);
-  };
-  if (!in_range(options.distance, 0, 1e9)) return invalid("distance is not in [0, 1e9]");
-  if (!in_range(options.angle, 0, 3.2)) return invalid("angle is not in [0, pi]");
-  if (!in_range(options.smoothness, 0, 1e6)) return invalid("smoothness is not in [0, 1e6]");
-  if (!in_range(options.smoothing_strength, 0, 1)) return invalid("strength is not in [0, 1]");
-  if (!in_range(options.mix, 0, 1)) return invalid("mix is not in [0, 1]");
+  if (const Status status = validation::kAngleDegrees.check_degrees(options.angle); !status)
+    return status;
+  for (const auto& [range, value] :
+       {std::pair(validation::kDistance, options.distance),
+        std::pair(validation::kSmoothness, options.smoothness),
+        std::pair(validation::kSmoothingStrength, options.smoothing_strength),
+        std::pair(validation::kMix, options.mix)})
+    if (const Status status = range.check(value); !status)
+      return Status::failure(status.code(), kNone, "transfer_weights: %s",
+                             std::string(status.text()).c_str());
   if (!options.locked.empty() && options.locked.size() != target.meshes.size())
     return Status::failure(StatusCode::size_mismatch, kNone,
                            "transfer_weights: locked has %zu meshes, the target %zu",
@@ -370,6 +371,7 @@ TransferResult Transfer::describe() {
   result.clamped_edges = laplacian_.clamped_edges;
   result.floored_points = laplacian_.floored_points;
   result.has_adopted_skeleton = bones_.has_adopted;
+  result.bone_of_source = bones_.counterparts;
   if (!bones_.has_adopted)
     for (Index bone = 0; bone < match_.kind.size(); ++bone)
       if (match_.kind[bone] == BoneMatchKind::fuzzy)

@@ -61,6 +61,13 @@ struct SlashOperation {
   /// Reach of the blade below the near surface. If empty: the middle of the limb.
   std::optional<AimedLength> depth = {};
   TearOptions options = {};
+  /// Lengths of `options` in widths of the limb; each takes the place of the one in metres.
+  struct InWidths {
+    std::optional<double> width = {}, wall_depth = {}, lip_roll = {};
+
+    bool operator==(const InWidths&) const = default;
+  };
+  InWidths in_widths = {};
 };
 
 /// A cut through a limb and nothing else, `{"op": "sever"}` in a log.

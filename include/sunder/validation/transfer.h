@@ -89,9 +89,10 @@ struct TransferResult {
   std::uint32_t clamped_edges = 0;   ///< Whose cotangent weight was negative, tiny or huge.
   std::uint32_t floored_points = 0;  ///< With hardly any area around them.
   std::vector<TransferStep> steps;
-  bool has_adopted_skeleton = false;   ///< The target had none of the source's bones.
-  std::vector<BoneNames> fuzzy_bones;  ///< Taken for counterparts though their names differ.
-  std::vector<Finding> findings;       ///< SUNDER_T_…; docs/transfer.md lists them.
+  bool has_adopted_skeleton = false;          ///< The target had none of the source's bones.
+  std::vector<std::uint32_t> bone_of_source;  ///< The same bone in `character`; kNone: none.
+  std::vector<BoneNames> fuzzy_bones;         ///< Taken for counterparts though their names differ.
+  std::vector<Finding> findings;              ///< SUNDER_T_…; docs/transfer.md lists them.
 
   /// Share of the vertices, those that are locked aside, whose match was accepted.
   [[nodiscard]] double matched_share() const {

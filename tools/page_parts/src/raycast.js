@@ -1,6 +1,6 @@
 // The nearest triangle on a ray. No DOM.
 
-/** {distance, corners, shares} of the first hit, or null. @param positions  posed, 3 per vertex. */
+/** {distance, triangle, corners, shares} of the first hit, or null. @param positions  posed, 3 per vertex. */
 export function raycast(positions, indices, origin, direction) {
   let best = null;
   let nearest = Infinity;
@@ -24,7 +24,7 @@ export function raycast(positions, indices, origin, direction) {
     const distance = (vx * qx + vy * qy + vz * qz) / determinant;
     if (distance <= 0 || distance >= nearest) continue;
     nearest = distance;
-    best = { distance, corners: [a / 3, b / 3, c / 3], shares: [1 - s - t, s, t] };
+    best = { distance, triangle: i / 3, corners: [a / 3, b / 3, c / 3], shares: [1 - s - t, s, t] };
   }
   return best;
 }

@@ -1,8 +1,16 @@
 // The operation log as text, and how its poses are named. No DOM.
 
-/** The clip of a pose, by index; -1: there is none. */
-export const clipIndex = (data, { clip }) => (typeof clip === 'number' && clip < data.clips.length
-  ? clip : data.clips.findIndex(({ name }) => name === clip));
+/** A name without its namespace: what follows the last ':' or '|'. */
+const withoutNamespace = (name) => name.slice(Math.max(name.lastIndexOf(':'), name.lastIndexOf('|')) + 1);
+
+/** The clip of a pose, by index; -1: there is none. By its name, or by the only one like it behind a namespace. */
+export function clipIndex({ clips }, { clip }) {
+  if (typeof clip === 'number') return clip < clips.length ? clip : -1;
+  const whole = clips.findIndex(({ name }) => name === clip);
+  if (whole >= 0) return whole;
+  const isLike = ({ name }) => withoutNamespace(name) === clip;
+  return clips.filter(isLike).length === 1 ? clips.findIndex(isLike) : -1;
+}
 
 /** A clip is named by its name if that is its own, else by its index. */
 function clipName(data, clip) {
@@ -31,7 +39,11 @@ export function poseText(spec = 'rest') {
   return spec.bones ? 'given bones' : 'given matrices';
 }
 
-const NAMES = { tear: 'Tear', cut: 'Cut', drill: 'Bore', weights: 'Weights', undo: 'Undo', redo: 'Redo' };
+/** Whether an operation is made in a pose. */
+export const isPlaced = ({ op }) => !['weights', 'undo', 'redo'].includes(op);
+
+const NAMES = { tear: 'Tear', cut: 'Cut', drill: 'Bore', slash: 'Slash', sever: 'Sever',
+  puncture: 'Puncture', incision: 'Incision', detach: 'Detach', weights: 'Weights', undo: 'Undo', redo: 'Redo' };
 
 /** "Tear", "3 blades · 0.40 s of Walk" */
 export function describe(operation) {
@@ -43,9 +55,12 @@ export function describe(operation) {
     else facts.push(operation.bounds?.length > 0 ? 'bounded' : 'whole plane');
   }
   if (operation.op === 'drill') facts.push(`radius ${Number(operation.radius.toPrecision(3))} m`);
+  const bone = operation.around ?? (operation.op === 'sever' ? operation.bone : undefined);
+  if (bone !== undefined) facts.push(operation.at === undefined ? bone : `${bone} at ${operation.at}`);
+  if (operation.op === 'incision') facts.push(`${operation.points.length} places`);
   if (operation.op === 'weights') facts.push(operation.weights.policy ?? 'barycentric');
   if (operation.count > 1) facts.push(`${operation.count}`);
-  if (['tear', 'cut', 'drill'].includes(operation.op)) facts.push(poseText(operation.pose));
+  if (isPlaced(operation)) facts.push(poseText(operation.pose));
   return { name: NAMES[operation.op], facts: facts.join(' · ') };
 }
 

@@ -12,11 +12,13 @@ import { boxOf } from '../../page_parts/src/bounds.js';
 import { followBones } from './bone_names.js';
 import { givePose } from './given_pose.js';
 import { History } from './history.js';
-import { isSamePose, parseLog, poseSpec, shellWord } from './log.js';
+import { Limbs } from './limbs.js';
+import { isPlaced, isSamePose, parseLog, poseSpec, shellWord } from './log.js';
 import { OperationList } from './operation_list.js';
 import { Overlays } from './overlays.js';
 import { PosedSurface } from './picking.js';
 import { Placing } from './placing.js';
+import { openedLines } from './preview.js';
 import { Settings } from './settings.js';
 import { decodeImages, PIECES, ShownModel } from './shown_model.js';
 import { listTornFacts } from './torn_facts.js';
@@ -76,10 +78,12 @@ class Page {
     this.settings = new Settings(byId('settings'), this.diagonal, () => this.placing?.update());
     this.placing = new Placing(byId('canvas'), this.settings, {
       pick: (x, y) => this.pick(x, y), surface: () => this.surface(),
-      pose: () => poseSpec(data, player), onMessage: say,
-      onPending: (places) => {
+      pose: () => poseSpec(data, player), rig: () => this.rig(),
+      isSource: () => this.which === 'source', onMessage: say,
+      onPending: (places, operation) => {
         this.overlays.setPending(places);
-        this.stage.requestFrame();
+        this.possible = operation;
+        this.updateOpened();
       },
       onOperation: (operation) => {
         this.history.append(operation);
@@ -111,6 +115,22 @@ class Page {
     return found && { ...found, eye: origin };
   }
 
+  /** The bones in the pose that is shown, and which surface they move. */
+  rig() {
+    this.limbs ??= new Limbs(this.data.source, this.data.skeleton.parents);
+    return { limbs: this.limbs, bones: this.player.bones };
+  }
+
+  /** Draws where the operations of this pose, and the one that is being placed, would open the source. */
+  updateOpened() {
+    const isShown = this.which === 'source' && !this.player.isPlaying;
+    const here = isShown ? this.history.operations.filter((operation) => this.isHere(operation)) : [];
+    if (isShown && this.possible) here.push(this.possible);
+    this.opened = here.flatMap((operation) => openedLines(operation, this.surface(), this.rig()));
+    this.overlays.setOpened(this.opened);
+    this.stage.requestFrame();
+  }
+
   /** Takes over the pose of the player. */
   setPose() {
     this.posed = {};
@@ -121,28 +141,32 @@ class Page {
     this.stage.requestFrame();
   }
 
+  isHere(operation) {
+    return isSamePose(this.data, operation.pose, poseSpec(this.data, this.player));
+  }
+
   stateOf(i) {
     const operation = this.history.operations[i];
     if (operation === this.list.chosen) return 'chosen';
-    return isSamePose(this.data, operation.pose, poseSpec(this.data, this.player))
-      ? 'here' : 'elsewhere';
+    return this.isHere(operation) ? 'here' : 'elsewhere';
   }
 
   updateOverlays() {
     this.overlays.setStates((i) => this.stateOf(i));
+    this.updateOpened();
   }
 
   operationsChanged() {
     this.list.update();
     this.overlays.setOperations(this.history.operations, (i) => this.stateOf(i));
-    this.stage.requestFrame();
+    this.updateOpened();
   }
 
   /** Goes to the pose of an operation. */
   choose(operation) {
     this.updateOverlays();
     this.stage.requestFrame();
-    if (!operation || !['tear', 'cut', 'drill'].includes(operation.op)) return;
+    if (!operation || !isPlaced(operation)) return;
     const problem = givePose(this.data, this.player, operation.pose ?? 'rest');
     if (problem) return this.say(problem, true);
     this.time.change(() => this.player.play(false));
@@ -196,7 +220,7 @@ class Page {
   listenToKeys() {
     const { stage, time, placing, history } = this;
     const click = (id) => () => byId(id).click();
-    const tools = ['look', 'tear', 'cut', 'drill'];
+    const tools = ['look', 'tear', 'cut', 'drill', 'limb', 'incision'];
     listenToKeys(byId('canvas'), {
       ' ': () => time.togglePlay(), ',': () => time.step(-1), '.': () => time.step(1),
       ...Object.fromEntries(tools.map((tool, i) => [String(i + 1), () => placing.choose(tool)])),
@@ -229,7 +253,8 @@ class Page {
   }
 
   toggleOverlays() {
-    this.overlays.group.visible = !this.overlays.group.visible;
+    const { group, opened } = this.overlays;
+    group.visible = opened.visible = !group.visible;
     this.stage.requestFrame();
   }
 }

@@ -1,4 +1,5 @@
 // Operations of a log, made from places that were clicked. No DOM.
+import { surfacePlace } from './limbs.js';
 import { add, cross, distance, dot, frameAround, lerp, scaled, unit } from './vectors.js';
 
 /** Blades are added where the surface leaves the line between two others by this share of their
@@ -99,6 +100,29 @@ export function makeBore([click], settings, pose, surface) {
   return withWeights({ op: 'drill', pose,
     axis: { origin: add(click.position, direction, height), direction: scaled(direction, -1) },
     radius: settings.radius, depth: height + settings.depth, wall: settings.wall }, settings);
+}
+
+/** What is aimed at the limb under a click. Throws a text where no bone moves the place. */
+export function makeAimed([click], settings, pose, surface, rig) {
+  const place = rig.limbs.placeOf(click, rig.bones);
+  if (!place) throw new Error('No bone moves this place.');
+  const { what, length, turn, radius, through } = settings;
+  const at = place.at === undefined ? {} : { at: place.at };
+  const from = unit(add(click.eye, click.position, -1)).map((x) => Number(x.toFixed(6)));
+  const operation = {
+    sever: () => ({ op: 'sever', bone: place.bone, ...at, pose }),
+    slash: () => ({ op: 'slash', around: place.bone, ...at, from, length: { widths: length }, turn, pose }),
+    puncture: () => ({ op: 'puncture', around: place.bone, ...at, from, radius: { widths: radius },
+      through, pose }),
+  }[what]();
+  return withWeights(operation, settings);
+}
+
+/** A stroke along the surface through all places, which are places of its triangles. */
+export function makeIncision(clicks, settings, pose, surface) {
+  return withWeights({ op: 'incision', pose, depth: settings.depth, width: settings.width,
+    layers: settings.layers, wall_depth: settings.wallDepth,
+    points: clicks.map((click) => surfacePlace(surface.model, click)) }, settings);
 }
 
 /** The polygon that shows a cut: its bounds on its plane, or a square of a size around a centre. */

@@ -9,6 +9,8 @@ import { add, unit } from './vectors.js';
 
 const COLOURS = { tear: 0xe0731d, cut: 0x2f6fd0, drill: 0x8a3fd1 };
 const POINT = 0x111111;
+/** Where the surface would open. */
+const OPENED = 0xd0142c;
 /** Opacity of a sheet: chosen, in the pose that is shown, in another pose. */
 const OPACITY = { chosen: 0.5, here: 0.24, elsewhere: 0.05 };
 
@@ -67,10 +69,17 @@ export class Overlays {
     this.shown = [];
     this.pending = new Group();
     this.pending.renderOrder = 3;
+    this.opened = new Group();
   }
 
   get objects() {
-    return [this.group, this.pending];
+    return [this.group, this.opened, this.pending];
+  }
+
+  /** @param segments  along which operations would open the surface that is shown */
+  setOpened(segments) {
+    release(this.opened);
+    if (segments.length) this.opened.add(lines(OPENED, segments));
   }
 
   /** @param stateOf  (index) -> 'chosen', 'here' or 'elsewhere' */

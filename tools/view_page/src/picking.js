@@ -13,14 +13,17 @@ export class PosedSurface {
     Object.assign(this, { model, pose, positions });
   }
 
-  /** The first place on a ray: {position, normal}, or null. The normal points against the ray. */
+  /**
+   * The first place on a ray, or null: {position, normal, distance}, and its triangle with the
+   * corners and their shares. The normal points against the ray.
+   */
   hit(origin, direction) {
     const found = raycast(this.positions, this.model.indices, origin, direction);
     if (!found) return null;
     const corners = found.corners.map((vertex) => this.corner(vertex));
     const position = [0, 1, 2].map((k) =>
       corners.reduce((sum, corner, i) => sum + found.shares[i] * corner[k], 0));
-    return { position, normal: this.normalAt(found, corners, direction), distance: found.distance };
+    return { ...found, position, normal: this.normalAt(found, corners, direction) };
   }
 
   corner(vertex) {

@@ -20,6 +20,18 @@ const FIELDS = {
   { ...length('depth', 'Depth', 0.2, 1e-9),
     counts: ({ by, bounds }) => by === 'sight' && bounds === 'points' },
   { name: 'caps', label: 'Close sections', isFlag: true }, WEIGHTS],
+  limb: [{ name: 'what', label: 'Operation', choices: { slash: 'slash the limb',
+    sever: 'sever the limb', puncture: 'puncture the limb' } },
+  { name: 'length', label: 'Length, widths of the limb', first: 0.6, least: 1e-3,
+    counts: ({ what }) => what === 'slash' },
+  { name: 'turn', label: 'Turn, degrees', first: 0, least: -360, counts: ({ what }) => what === 'slash' },
+  { name: 'radius', label: 'Radius, widths of the limb', first: 0.1, least: 1e-3,
+    counts: ({ what }) => what === 'puncture' },
+  { name: 'through', label: 'Through the limb', isFlag: true,
+    counts: ({ what }) => what === 'puncture' }, WEIGHTS],
+  incision: [length('depth', 'Depth', 0.005, 1e-9), length('width', 'Gap width', 0),
+    { name: 'layers', label: 'Layers', choices: { nearest: 'nearest', all: 'all that it meets' } },
+    length('wallDepth', 'Wall depth', 0), WEIGHTS],
   drill: [DIRECTION, length('radius', 'Radius', 0.015, 1e-9), length('depth', 'Depth', 0.1, 1e-9),
     { name: 'wall', label: 'Line the bore', isFlag: true }, WEIGHTS],
 };
@@ -36,8 +48,9 @@ export class Settings {
       this.values[tool] = Object.fromEntries(fields.map((field) => [field.name, this.first(field)]));
   }
 
-  first({ choices, share, isFlag }) {
+  first({ choices, share, isFlag, first }) {
     if (choices) return Object.keys(choices)[0];
+    if (first !== undefined) return first;
     return isFlag ? false : rounded(share * this.diagonal);
   }
 
