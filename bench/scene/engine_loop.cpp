@@ -55,7 +55,7 @@ void act(EngineInstance& engine, int frame, bool in_background) {
   }
   if (frame == kGap) engine.submit(TearCommand{engine_gap(20), walled(0.01)});
   if (frame == kCut) engine.submit(engine_cut(), in_background);
-  if (frame == kDetach) engine.submit(DetachCommand{kEnginePiece, {}});
+  if (frame == kDetach) engine.submit(DetachCommand{kEnginePiece, {}}, in_background);
   if (frame == kDrill) engine.submit(engine_bore(), in_background);
   if (frame == kUndo) engine.submit(UndoCommand{});
   if (frame == kRefit) {

@@ -19,7 +19,8 @@ struct EngineRun {
 };
 
 /// @param divisions  of make_engine_model(): 2 and 8 for 13 and 214 thousand vertices.
-/// @param in_background  whether cuts, bores and the refit run in the background, as docs/frame.md
+/// @param in_background  whether the cut, the detachment and the bore run in the background, as
+/// docs/frame.md
 ///                       advises. The refit always does.
 /// @param repeats  the loop runs so many times; the least time counts for each frame.
 [[nodiscard]] EngineRun run_engine(int divisions, bool in_background, int repeats);
