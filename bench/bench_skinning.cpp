@@ -10,9 +10,10 @@
 #include "bench/harness/json_object.h"
 #include "bench/harness/measure.h"
 #include "bench/peers/native_peers.h"
+#include "bench/skinning/displacing.h"
+#include "bench/skinning/posing_turns.h"
 #include "bench/skinning/skinning_scene.h"
 #include "samples/thread_pool.h"
-#include "support/models/random_displacements.h"
 
 namespace sunder::bench {
 namespace {
@@ -51,45 +52,23 @@ constexpr const char* kHelp =
 
 constexpr std::array<int, 4> kDivisions = {1, 3, 7, 16};
 
-/// A way to pose the whole crowd once.
-struct Candidate {
-  const char* name;
-  std::function<void(std::size_t pose)> run;
-  std::vector<double> ns_per_vertex = {};
-};
-
-/// Runs the candidates in turns. A turn is as many frames as take about two milliseconds or more,
-/// after two frames that are not counted.
-void measure(std::vector<Candidate>& candidates, double vertices, int turns) {
-  const int frames = std::max(6, static_cast<int>(2e6 / vertices));
-  for (int turn = 0; turn < turns; ++turn)
-    for (Candidate& candidate : candidates) {
-      for (const std::size_t pose : {0, 1}) candidate.run(pose);
-      const double seconds = seconds_of([&] {
-        for (int i = 0; i < frames; ++i)
-          candidate.run(static_cast<std::size_t>(i) % SkinningScene::kPoses);
-      });
-      candidate.ns_per_vertex.push_back(1e9 * seconds / frames / vertices);
-    }
-}
-
-double time_of(const std::vector<Candidate>& candidates, const char* name) {
-  for (const Candidate& candidate : candidates)
+double time_of(const std::vector<PosingCandidate>& candidates, const char* name) {
+  for (const PosingCandidate& candidate : candidates)
     if (std::strcmp(candidate.name, name) == 0) return median(candidate.ns_per_vertex);
   return 0;
 }
 
 /// The minimum over the candidates whose name begins with the text.
-double least_time_of(const std::vector<Candidate>& candidates, const char* begin) {
+double least_time_of(const std::vector<PosingCandidate>& candidates, const char* begin) {
   double least = 0;
-  for (const Candidate& candidate : candidates)
+  for (const PosingCandidate& candidate : candidates)
     if (std::strncmp(candidate.name, begin, std::strlen(begin)) == 0)
       least = least == 0 ? median(candidate.ns_per_vertex)
                          : std::min(least, median(candidate.ns_per_vertex));
   return least;
 }
 
-void add_touching(std::vector<Candidate>& candidates, std::deque<CrowdMember>& crowd) {
+void add_touching(std::vector<PosingCandidate>& candidates, std::deque<CrowdMember>& crowd) {
   const auto add = [&](const char* name, Stores stores, std::size_t ahead) {
     candidates.push_back({name, [&crowd, stores, ahead](std::size_t) {
                             for (CrowdMember& member : crowd)
@@ -105,7 +84,7 @@ void add_touching(std::vector<Candidate>& candidates, std::deque<CrowdMember>& c
 }
 
 /// The same on two threads, each with a part of the bytes.
-void add_touching_by(samples::ThreadPool& pool, std::vector<Candidate>& candidates,
+void add_touching_by(samples::ThreadPool& pool, std::vector<PosingCandidate>& candidates,
                      std::deque<CrowdMember>& crowd) {
   static constexpr std::uint32_t kParts = 8;
   struct Work {
@@ -138,7 +117,7 @@ struct Times {
 
 Times measure_crowd(const SkinningScene& scene, std::deque<CrowdMember>& crowd, int turns) {
   samples::ThreadPool pool(2);
-  std::vector<Candidate> candidates;
+  std::vector<PosingCandidate> candidates;
   candidates.push_back({"eigen", [&](std::size_t pose) {
                           for (CrowdMember& member : crowd) member.pose_by_eigen(scene, pose);
                         }});
@@ -152,8 +131,9 @@ Times measure_crowd(const SkinningScene& scene, std::deque<CrowdMember>& crowd, 
                         }});
   add_touching(candidates, crowd);
   add_touching_by(pool, candidates, crowd);
-  measure(candidates, static_cast<double>(scene.vertex_count()) * static_cast<double>(crowd.size()),
-          turns);
+  measure_posing(candidates,
+                 static_cast<double>(scene.vertex_count()) * static_cast<double>(crowd.size()),
+                 turns);
   return {time_of(candidates, "eigen"), time_of(candidates, "ours"),
           time_of(candidates, "two threads"), least_time_of(candidates, "touch"),
           least_time_of(candidates, "by two")};
@@ -213,7 +193,7 @@ std::vector<std::pair<const char*, double>> measure_variants(const SkinningScene
   PosedBuffer positions({count, {member.positions.data()}, {}, {}});
   PosedBuffer unit({count, {member.positions.data()}, {member.normals.data()}, {}, true});
   PosedBuffer strided({count, {interleaved, 24}, {interleaved + 3, 24}, {}});
-  std::vector<Candidate> candidates;
+  std::vector<PosingCandidate> candidates;
   const auto add = [&](const char* name, CrowdMember& of, PosedBuffer& buffer) {
     candidates.push_back(
         {name, [&of, &buffer](std::size_t pose) { of.pose_by_ours(pose, buffer); }});
@@ -222,58 +202,11 @@ std::vector<std::pair<const char*, double>> measure_variants(const SkinningScene
   add("positions, unit normals", member, unit);
   add("positions, normals, interleaved", member, strided);
   add("the same by dual quaternions", twisting, twisting.buffer);
-  measure(candidates, count, 15);
+  measure_posing(candidates, count, 15);
   std::vector<std::pair<const char*, double>> result;
-  for (const Candidate& candidate : candidates)
+  for (const PosingCandidate& candidate : candidates)
     result.emplace_back(candidate.name, median(candidate.ns_per_vertex));
   return result;
-}
-
-/// What displacing every vertex adds to posing it: nanoseconds per vertex.
-struct Displacing {
-  double positions = 0, normals = 0, tangents = 0;  ///< Each together with those before.
-};
-
-Displacing measure_displacing(const SkinningScene& scene) {
-  Mesh mesh = scene.mesh();
-  mesh.tangents.assign(mesh.vertex_count(), Vec4f(1, 0, 0, 1));
-  const auto skinned = SkinnedMesh::create(source_of(mesh), scene.character.skins[0].bones.size());
-  test::Random random(1);
-  test::Soft soft = test::make_soft(random, mesh.vertex_count(), 200);
-  // A row and four particles for each vertex; neighbours share most of them.
-  for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) soft.rows[v] = v;
-  soft.influences.resize(mesh.vertex_count());
-  soft.gradients.resize(mesh.vertex_count());
-  for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v)
-    for (std::uint32_t k = 0; k < 4; ++k) {
-      soft.influences[v].particles[k] =
-          static_cast<std::uint32_t>(190.0 * v / mesh.vertex_count()) + random.index(10);
-      soft.influences[v].weights[k] = 0.25f;
-      soft.gradients[v].of_weights[k] = test::random_vector(random, 3);
-    }
-  soft.moved = {{0, mesh.vertex_count()}};
-  const VertexDisplacements displacements = soft.view();
-
-  CrowdMember member(scene);
-  std::vector<Candidate> candidates;
-  std::deque<PosedBuffer> buffers;
-  for (int attributes = 1; attributes <= 3; ++attributes)
-    for (const VertexDisplacements* displaced :
-         {static_cast<const VertexDisplacements*>(nullptr), &displacements}) {
-      VertexTarget target{member.vertices, {member.positions.data()}, {}, {}};
-      if (attributes > 1) target.normals = {member.normals.data()};
-      if (attributes > 2) target.tangents = {member.tangents.data()};
-      PosedBuffer& buffer = buffers.emplace_back(target);
-      candidates.push_back({"", [&skinned, &member, &buffer, displaced](std::size_t pose) {
-                              (void)skinned->deform(member.palettes[pose], buffer, {}, displaced);
-                            }});
-    }
-  measure(candidates, member.vertices, 15);
-  const auto added = [&](std::size_t attributes) {
-    return median(candidates[2 * attributes + 1].ns_per_vertex) -
-           median(candidates[2 * attributes].ns_per_vertex);
-  };
-  return {added(0), added(1), added(2)};
 }
 
 std::deque<CrowdMember> make_crowd(const SkinningScene& scene) {

@@ -207,20 +207,27 @@ Result<RefitJob> CharacterInstance::begin_refit(const WeightsOperation& wanted) 
 
 Result<OperationJob> CharacterInstance::begin_operation(const Operation& operation) {
   const MemoryScope scope(state_->memory);
-  try {
-    return state_->begin_operation(operation);
-  } catch (const std::bad_alloc&) {
-    return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
-  }
+  return state_->begin_operation([&](OperationJob::Observer observer) {
+    return OperationJob::create(state_->torn->model, operation, std::move(observer));
+  });
 }
 
-Result<TearReport> CharacterInstance::swap_in(const OperationJob& job, ChangeRecord* change) {
+Result<OperationJob> CharacterInstance::begin_detach(const DetachOperation& operation,
+                                                     const DetachOptions& options) {
+  const MemoryScope scope(state_->memory);
+  return state_->begin_operation([&](OperationJob::Observer observer) {
+    return OperationJob::create(state_->torn->model, operation, options, std::move(observer));
+  });
+}
+
+Result<TearReport> CharacterInstance::swap_in(const OperationJob& job, ChangeRecord* change,
+                                              PieceTissue* tissue) {
   const MemoryScope scope(state_->memory);
   if (job.poll() == OperationJob::State::failed) {
     state_->drop(job);
     return job.failure();
   }
-  return state_->swap_in(job, change);
+  return state_->swap_in(job, change, tissue);
 }
 
 Result<WeightReport> CharacterInstance::swap_in(const RefitJob& job, ChangeRecord* change) {

@@ -105,30 +105,43 @@ void CharacterInstance::State::keep_tissue(const DetachedPiece& piece,
   }
 }
 
-Result<OperationJob> CharacterInstance::State::begin_operation(const Operation& operation) {
+Result<OperationJob> CharacterInstance::State::begin_operation(
+    const std::function<Result<OperationJob>(OperationJob::Observer)>& create) {
   if (Status status = require_torn(); !status) return status;
   begun.reset();
-  std::optional<ParticleFork> fork;
-  if (torn->particles) {
-    Result<ParticleFork> made = ParticleFork::create(*torn->particles, torn->model);
-    if (!made) return made.error();
-    fork.emplace(std::move(*made));
+  try {
+    std::optional<ParticleFork> fork;
+    if (torn->particles) {
+      Result<ParticleFork> made = ParticleFork::create(*torn->particles, torn->model);
+      if (!made) return made.error();
+      fork.emplace(std::move(*made));
+    }
+    const auto prepared =
+        std::make_shared<scene::PreparedSwap>(asset, shared().meshes, std::move(fork));
+    Result<OperationJob> job =
+        create([prepared](const TornModel& replica, std::span<const ChangeRecord> changes) {
+          prepared->prepare(replica, changes);
+        });
+    if (job) begun.emplace(scene::BegunOperation{*job, prepared});
+    return job;
+  } catch (const std::bad_alloc&) {
+    return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
   }
-  const auto prepared =
-      std::make_shared<scene::PreparedSwap>(asset, shared().meshes, std::move(fork));
-  Result<OperationJob> job = OperationJob::create(
-      torn->model, operation,
-      [prepared](const TornModel& replica, std::span<const ChangeRecord> changes) {
-        prepared->prepare(replica, changes);
-      });
-  if (job) begun.emplace(scene::BegunOperation{*job, prepared});
-  return job;
 }
 
 void CharacterInstance::State::drop(const OperationJob& job) noexcept {
   if (!begun || begun->job != job) return;
   begun->prepared->cancel();
   begun.reset();
+}
+
+Result<TearReport> CharacterInstance::State::swap_in(const OperationJob& job, ChangeRecord* change,
+                                                     PieceTissue* tissue) {
+  PieceTissue motion;
+  if (tissue != nullptr && job.piece() && torn) keep_tissue(*job.piece(), motion);
+  Result<TearReport> report = swap_in(job, change);
+  if (report && tissue != nullptr) *tissue = std::move(motion);
+  return report;
 }
 
 Result<TearReport> CharacterInstance::State::swap_in(const OperationJob& job,

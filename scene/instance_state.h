@@ -4,6 +4,7 @@
 #include <sunder/scene/character_instance.h>
 #include <sunder/scene/scene_command.h>
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -61,9 +62,13 @@ struct CharacterInstance::State {
   Status follow(std::span<const ChangeRecord> changes);
   /// Keeps the motion of a piece before its particles vanish. Without memory it is at rest.
   void keep_tissue(const DetachedPiece& piece, PieceTissue& tissue) noexcept;
-  /// Begins an operation on a replica, with what its swap_in() needs. @throws std::bad_alloc
-  Result<OperationJob> begin_operation(const Operation& operation);
+  /// Begins an operation on a replica, with what its swap_in() needs.
+  /// @param create  makes the job with an observer.
+  Result<OperationJob> begin_operation(
+      const std::function<Result<OperationJob>(OperationJob::Observer)>& create);
   Result<TearReport> swap_in(const OperationJob& job, ChangeRecord* change);
+  /// The same, with the motion of the piece of a detachment.
+  Result<TearReport> swap_in(const OperationJob& job, ChangeRecord* change, PieceTissue* tissue);
   /// Drops what an operation prepared that failed.
   void drop(const OperationJob& job) noexcept;
   Status set_palettes();

@@ -2,10 +2,24 @@
 
 #include <sunder/tear/torn_model.h>
 
+#include "tear/model/model_state.h"
+
 namespace sunder {
+
+namespace {
+
+/// As Digest::add() of Mesh::triangle_submesh, with other numbers.
+template <class SubmeshOf>
+void add_submeshes(const Mesh& mesh, SubmeshOf submesh_of, Digest& digest) {
+  digest.add(mesh.triangle_count());
+  for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) digest.add(submesh_of(t));
+}
+
+}  // namespace
 
 std::uint64_t TornModel::digest() const {
   Digest digest;
+  const State* const torn = torn_state();
   for (std::uint32_t m = 0; m < character().meshes.size(); ++m) {
     const Mesh& mesh = character().meshes[m];
     digest.add(mesh.positions);
@@ -22,7 +36,15 @@ std::uint64_t TornModel::digest() const {
       digest.add(target.tangent_deltas);
     }
     digest.add(mesh.triangles);
-    digest.add(mesh.triangle_submesh);
+    add_submeshes(
+        mesh,
+        [&](std::uint32_t triangle) {
+          return torn == nullptr
+                     ? mesh.triangle_submesh[triangle]
+                     : torn->editor.fillings.submesh_of_group(torn->editor.surface().triangle(
+                           torn->editor.origins.surface_triangle(m, triangle)));
+        },
+        digest);
     for (std::uint32_t vertex = source().meshes[m].vertex_count(); vertex < mesh.vertex_count();
          ++vertex) {
       const Birth born = birth(m, vertex);

@@ -1,3 +1,5 @@
+#include <sunder/skinning/pose.h>
+#include <sunder/tear/detached_piece.h>
 #include <sunder/tear/operation_job.h>
 
 #include <algorithm>
@@ -20,9 +22,11 @@ struct OperationTask {
   std::vector<Operation> history;
   std::vector<std::uint64_t> serials;  ///< Of the operations that the model has done.
   Operation operation;
+  std::optional<DetachOptions> detach;  ///< Of a detachment whose piece is wanted.
   OperationJob::Observer observer;
   std::optional<TornModel> replica;  ///< With the operation on its redo stack, once it is done.
   TearReport report;
+  std::shared_ptr<const DetachedPiece> piece;
   Status failure;
   std::atomic<OperationJob::State> state = OperationJob::State::waiting;
 };
@@ -35,6 +39,19 @@ Status refuse(const char* why) {
   return Status::failure(StatusCode::invalid_argument, kNone, "%s", why);
 }
 
+/// Performs a detachment and keeps its piece.
+Result<TearReport> detach_piece(tear::OperationTask& task, TornModel& model,
+                                std::vector<ChangeRecord>* changes) {
+  const auto& operation = std::get<DetachOperation>(task.operation);
+  const Result<ModelPose> pose = make_pose(model.character(), operation.pose);
+  if (!pose) return pose.error();
+  ChangeRecord* const change = changes != nullptr ? &changes->emplace_back() : nullptr;
+  Result<DetachedPiece> piece = detach(model, *pose, operation.piece, *task.detach, change);
+  if (!piece) return piece.error();
+  task.piece = std::make_shared<const DetachedPiece>(std::move(*piece));
+  return task.piece->report;
+}
+
 Status run_task(tear::OperationTask& task) {
   Result<TornModel> made = TornModel::create(task.asset->character());
   if (!made) return made.error();
@@ -43,8 +60,9 @@ Status run_task(tear::OperationTask& task) {
     if (Result<TearReport> done = apply_operation(*made, operation); !done) return done.error();
   const std::uint32_t before = made->undo_count();
   std::vector<ChangeRecord> changes;
-  Result<TearReport> report =
-      apply_operation(*made, task.operation, task.observer ? &changes : nullptr);
+  std::vector<ChangeRecord>* const wanted = task.observer ? &changes : nullptr;
+  Result<TearReport> report = task.detach ? detach_piece(task, *made, wanted)
+                                          : apply_operation(*made, task.operation, wanted);
   if (!report) return report.error();
   if (task.observer) task.observer(*made, changes);
   task.report = std::move(*report);
@@ -60,6 +78,22 @@ OperationJob::OperationJob(std::shared_ptr<tear::OperationTask> task) : task_(st
 
 Result<OperationJob> OperationJob::create(TornModel& model, const Operation& operation,
                                           Observer observer) {
+  auto task = make_task(model, operation, std::move(observer));
+  if (!task) return task.error();
+  return OperationJob(std::move(*task));
+}
+
+Result<OperationJob> OperationJob::create(TornModel& model, const DetachOperation& operation,
+                                          const DetachOptions& options, Observer observer) {
+  auto task = make_task(model, operation, std::move(observer));
+  if (!task) return task.error();
+  (*task)->detach = options;
+  return OperationJob(std::move(*task));
+}
+
+Result<std::shared_ptr<tear::OperationTask>> OperationJob::make_task(TornModel& model,
+                                                                     const Operation& operation,
+                                                                     Observer observer) {
   if (Status status = model.unpack(); !status) return status;
   const TornModel::State& state = *model.state_;
   if (std::holds_alternative<UndoOperation>(operation) ||
@@ -76,7 +110,7 @@ Result<OperationJob> OperationJob::create(TornModel& model, const Operation& ope
     for (const auto& entry : state.history.done()) task->serials.push_back(entry->serial);
     task->operation = operation;
     task->observer = std::move(observer);
-    return OperationJob(std::move(task));
+    return task;
   } catch (const std::bad_alloc&) {
     return out_of_memory();
   }
@@ -94,6 +128,7 @@ void OperationJob::run() const {
 
 OperationJob::State OperationJob::poll() const { return task_->state; }
 const Status& OperationJob::failure() const { return task_->failure; }
+std::shared_ptr<const DetachedPiece> OperationJob::piece() const { return task_->piece; }
 
 Result<TearReport> OperationJob::swap_in(TornModel& model, ChangeRecord* change) const {
   if (Status status = model.unpack(); !status) return status;

@@ -4,6 +4,13 @@
 
 namespace sunder::bench {
 
+/// Processor time of the calling thread: neither other programs nor other threads count.
+inline double thread_seconds() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
 /// Processor seconds that `work` takes in this process, in the program and in the kernel. Unlike
 /// seconds_of() it does not count the time that other programs have the processor.
 template <class Work>

@@ -42,26 +42,6 @@ LayerOptions layer(double start, PlayMode mode = PlayMode::loop) {
   return options;
 }
 
-/// All bones swing to and fro within two seconds.
-Clip swing(std::uint32_t bones) {
-  constexpr int kKeys = 9;
-  Clip clip;
-  clip.name = "Swing";
-  clip.duration = 2.0f;
-  for (std::uint32_t bone = 0; bone < bones; ++bone) {
-    Channel channel{ChannelTarget::rotation, bone, 4, Interpolation::linear, {}, {}};
-    for (int key = 0; key < kKeys; ++key) {
-      const double phase = 2 * std::numbers::pi * key / (kKeys - 1);
-      const double angle = 0.5 / bones * std::sin(phase + 0.1 * bone);
-      channel.times.push_back(0.25f * static_cast<float>(key));
-      channel.values.insert(channel.values.end(), {0.0f, 0.0f, static_cast<float>(std::sin(angle)),
-                                                   static_cast<float>(std::cos(angle))});
-    }
-    clip.channels.push_back(std::move(channel));
-  }
-  return clip;
-}
-
 }  // namespace
 
 BackgroundHook BackgroundThreads::hook() {
@@ -82,10 +62,29 @@ void require(const Status& status, const char* what) {
   std::exit(1);
 }
 
+Clip swing_clip(std::uint32_t bones) {
+  constexpr int kKeys = 9;
+  Clip clip;
+  clip.name = "Swing";
+  clip.duration = 2.0f;
+  for (std::uint32_t bone = 0; bone < bones; ++bone) {
+    Channel channel{ChannelTarget::rotation, bone, 4, Interpolation::linear, {}, {}};
+    for (int key = 0; key < kKeys; ++key) {
+      const double phase = 2 * std::numbers::pi * key / (kKeys - 1);
+      const double angle = 0.5 / bones * std::sin(phase + 0.1 * bone);
+      channel.times.push_back(0.25f * static_cast<float>(key));
+      channel.values.insert(channel.values.end(), {0.0f, 0.0f, static_cast<float>(std::sin(angle)),
+                                                   static_cast<float>(std::cos(angle))});
+    }
+    clip.channels.push_back(std::move(channel));
+  }
+  return clip;
+}
+
 std::shared_ptr<const Character> make_crowd_model(std::uint32_t vertices, std::uint32_t bones) {
   auto character = std::make_shared<Character>(test::make_bumpy_ball(vertices));
   test::rig_along(*character, bones);
-  character->clips = {swing(bones)};
+  character->clips = {swing_clip(bones)};
   return character;
 }
 

@@ -8,6 +8,9 @@
 
 namespace sunder::bench {
 
+/// A clip of two seconds in which all bones swing to and fro.
+[[nodiscard]] Clip swing_clip(std::uint32_t bones);
+
 /// A ball with bumps, of about so many vertices, on a chain of bones, with a clip in which all
 /// bones move.
 [[nodiscard]] std::shared_ptr<const Character> make_crowd_model(std::uint32_t vertices,

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <ctime>
 #include <vector>
 
+#include "bench/harness/cpu_seconds.h"
 #include "bench/harness/measure.h"
 #include "bench/scene/scene_crowd.h"
 
@@ -50,13 +50,6 @@ constexpr Act kActs[] = {{"untorn", 20, kStroke - 20},
                          {"undo of the cut", kUndoCut, 1},
                          {"after it", kUndoCut + 1, 90},
                          {"all displaced", kPush + 10, 90}};
-
-/// Processor time of the calling thread, seconds: other programs do not count.
-double thread_seconds() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
 
 /// The figures of each frame; `total` is processor time.
 std::vector<FrameStats> run_loop(const std::shared_ptr<const Character>& character, LoopMode mode) {

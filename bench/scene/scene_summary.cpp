@@ -6,6 +6,7 @@
 
 #include "bench/harness/json_object.h"
 #include "bench/harness/measure.h"
+#include "bench/scene/engine_figures.h"
 #include "bench/scene/operation_ratios.h"
 #include "bench/scene/scene_crowd.h"
 #include "bench/scene/scene_loop.h"
@@ -175,6 +176,7 @@ void print_scene_summary() {
   object.add("stroke_extra_ms", stroke_extra(middle));
   object.add("vr_frame_ms", vr_frame(middle));
   add_loops(object);
+  add_engine_figures(object);
   add_operation_ratios(object);
   object.end();
 }

@@ -16,12 +16,24 @@ bool is_of_stroke(const SceneCommand& command) {
          std::holds_alternative<CancelStrokeCommand>(command);
 }
 
-/// Lets the background run a job.
-template <class Job>
-std::shared_ptr<OnceJob> begin(const Job& job, Background& background) {
-  auto once = std::make_shared<OnceJob>([job] { job.run(); });
+/// Lets the background run a job, and what follows it.
+template <class Job, class Next>
+std::shared_ptr<OnceJob> begin(const Job& job, Background& background, Next next) {
+  auto once = std::make_shared<OnceJob>([job, next] {
+    job.run();
+    next();
+  });
   background.start([once] { once->run(); });
   return once;
+}
+
+/// An asset of a piece, as those of the instance that it came off. Null without enough memory.
+std::shared_ptr<const CharacterAsset> asset_of(const DetachedPiece* piece,
+                                               CharacterAssetOptions options) {
+  if (piece == nullptr || piece->character == nullptr) return nullptr;
+  options.coarser = nullptr;
+  const auto asset = CharacterAsset::create(piece->character, options);
+  return asset ? *asset : nullptr;
 }
 
 Result<TearReport> report_of(Result<WeightReport> weights) {
@@ -48,11 +60,25 @@ void ActorCommands::conclude(const QueuedCommand& queued, Result<TearReport> rep
     result.status = report.error();
 }
 
+void ActorCommands::give(DetachedParts parts) {
+  results_.back().piece = std::move(parts.piece);
+  results_.back().tissue = std::move(parts.tissue);
+  results_.back().asset = std::move(parts.asset);
+}
+
 Status ActorCommands::start_operation(RunningOperation& operation, CharacterInstance& instance,
                                       Background& background) {
-  Result<OperationJob> job = instance.begin_operation(operation.operation);
+  const auto* const detach = std::get_if<DetachCommand>(&operation.in_background.queued.command);
+  Result<OperationJob> job =
+      detach != nullptr
+          ? instance.begin_detach(std::get<DetachOperation>(operation.operation), detach->options)
+          : instance.begin_operation(operation.operation);
   if (!job) return job.error();
-  operation.in_background.job = begin(*job, background);
+  operation.asset = std::make_shared<std::shared_ptr<const CharacterAsset>>();
+  operation.in_background.job =
+      begin(*job, background, [job = *job, to = operation.asset, of = instance.asset()] {
+        *to = asset_of(job.piece().get(), of->options());
+      });
   operation.in_background.time = background.swap_time();
   operation.job = std::move(*job);
   operation.is_outdated = false;
@@ -66,7 +92,7 @@ Status ActorCommands::start(const QueuedCommand& queued, const ModelPose& pose,
     if (weights != nullptr && weights->weights.policy == WeightPolicy::refit) {
       Result<RefitJob> job = instance.begin_refit(*weights);
       if (!job) return job.error();
-      refits_.push_back({{queued, begin(*job, background), background.swap_time()}, *job});
+      refits_.push_back({{queued, begin(*job, background, [] {}), background.swap_time()}, *job});
       return {};
     }
     std::optional<Operation> operation = operation_of(queued.command, pose);
@@ -74,7 +100,7 @@ Status ActorCommands::start(const QueuedCommand& queued, const ModelPose& pose,
       return Status::failure(StatusCode::invalid_argument, kNone,
                              "commands of strokes, undo and redo do not run in the background");
     RunningOperation running = {
-        {queued, nullptr, background.swap_time()}, std::move(*operation), {}, false};
+        {queued, nullptr, background.swap_time()}, std::move(*operation), {}, {}, false};
     Status status = start_operation(running, instance, background);
     if (status) operation_.emplace(std::move(running));
     return status;
@@ -103,8 +129,7 @@ void ActorCommands::apply(const ModelPose& pose, CharacterInstance& instance,
     conclude(queued, apply_command(queued.command, pose, instance,
                                    queued.options.wants_changes ? &changes : nullptr, detached));
     results_.back().changes = std::move(changes);
-    results_.back().piece = std::move(detached.piece);
-    results_.back().tissue = std::move(detached.tissue);
+    give(std::move(detached));
   }
   waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(next));
 }
@@ -122,9 +147,16 @@ void ActorCommands::finish_operation(CharacterInstance& instance, Background& ba
   }
   if (!operation_->in_background.time.has_come(*operation_->in_background.job)) return;
   ChangeRecord change;
-  conclude(queued, instance.swap_in(*operation_->job, &change));
+  PieceTissue tissue;
+  conclude(queued, instance.swap_in(*operation_->job, &change, &tissue));
   if (results_.back().status && queued.options.wants_changes)
     results_.back().changes.push_back(std::move(change));
+  if (results_.back().status && std::holds_alternative<DetachCommand>(queued.command)) {
+    DetachedParts parts = {operation_->job->piece(), nullptr, std::move(*operation_->asset)};
+    if (instance.body() != nullptr)
+      parts.tissue = std::make_shared<const PieceTissue>(std::move(tissue));
+    give(std::move(parts));
+  }
   // To free the replica takes time too.
   background.start(
       [job = std::move(operation_->job), once = std::move(operation_->in_background.job)] {});

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "scene/actor/command_calls.h"
 #include "scene/actor/command_queue.h"
 #include "scene/threads/background.h"
 #include "scene/threads/once_job.h"
@@ -50,6 +51,8 @@ class ActorCommands {
     InBackground in_background;
     Operation operation;  ///< In the pose of the update that took it.
     std::optional<OperationJob> job;
+    /// Of the piece of a detachment: the job writes it before it is done.
+    std::shared_ptr<std::shared_ptr<const CharacterAsset>> asset;
     bool is_outdated = false;  ///< Whether a stroke has changed the instance since.
   };
   struct RunningRefit {
@@ -58,6 +61,7 @@ class ActorCommands {
   };
   CommandResult& add_result(const QueuedCommand& queued);
   void conclude(const QueuedCommand& queued, Result<TearReport> report);
+  void give(DetachedParts parts);
   Status start(const QueuedCommand& queued, const ModelPose& pose, CharacterInstance& instance,
                Background& background);
   Status start_operation(RunningOperation& operation, CharacterInstance& instance,

@@ -66,6 +66,8 @@ std::optional<Operation> operation_of(const SceneCommand& command, const ModelPo
   if (const auto* const cut = std::get_if<PlaneCut>(&command)) return CutOperation{pose, *cut};
   if (const auto* const bore = std::get_if<Bore>(&command)) return DrillOperation{pose, *bore};
   if (const auto* const weights = std::get_if<WeightsOperation>(&command)) return *weights;
+  if (const auto* const detach = std::get_if<DetachCommand>(&command))
+    return DetachOperation{pose, detach->piece};
   return std::nullopt;
 }
 

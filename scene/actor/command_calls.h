@@ -7,10 +7,11 @@
 
 namespace sunder::scene {
 
-/// The results of a DetachCommand.
+/// The results of a DetachCommand, as CommandResult has them.
 struct DetachedParts {
   std::shared_ptr<const DetachedPiece> piece;
   std::shared_ptr<const PieceTissue> tissue;
+  std::shared_ptr<const CharacterAsset> asset;
 };
 
 /// Applies a command to an instance in a pose. @param changes  optional; records are appended.

@@ -150,17 +150,18 @@ void Filling::add_triangle(Index mesh, Index like_corner, const std::array<Index
     const Mesh& of = editor.character().meshes[ref.mesh];
     const Index material =
         material_ != kNone ? material_ : of.submeshes[of.triangle_submesh[ref.triangle]].material;
-    submeshes_.push_back({mesh, append_submesh(mesh, name_, material, editor)});
+    submeshes_.push_back({mesh, submesh_of_fillings(mesh, name_, material, editor),
+                          editor.fillings.group_count(mesh)});
     known = submeshes_.end() - 1;
   }
-  append_filling(mesh, known->submesh, points, vertices, editor);
+  append_filling(*known, points, vertices, editor);
 }
 
 void Filling::take_back(const EditLog::Mark& before) {
   work_.editor.roll_back(before);
   work_.posed.forget_from(before.points);
   std::erase_if(submeshes_, [&](const FillingSubmesh& of) {
-    return of.submesh >= work_.editor.character().meshes[of.mesh].submeshes.size();
+    return of.group >= work_.editor.fillings.group_count(of.mesh);
   });
 }
 

@@ -19,9 +19,10 @@ bool touches(Index triangle, const Vec3d& place, double near, const Workpiece& w
 
 bool is_of(std::span<const FillingSubmesh> submeshes, Index triangle, const Workpiece& work) {
   const TriangleRef ref = work.editor.surface().triangle(triangle);
-  const Index submesh = work.editor.character().meshes[ref.mesh].triangle_submesh[ref.triangle];
+  if (ref.source_triangle < work.editor.source().meshes[ref.mesh].triangle_count()) return false;
+  const Index group = work.editor.fillings.group(ref.mesh, ref.source_triangle);
   return std::ranges::any_of(submeshes, [&](const FillingSubmesh& of) {
-    return of.mesh == ref.mesh && of.submesh == submesh;
+    return of.mesh == ref.mesh && of.group == group;
   });
 }
 

@@ -6,12 +6,9 @@
 #include <cstddef>
 #include <vector>
 
-namespace sunder::tear {
+#include "tear/surface/append_filling.h"
 
-/// The submesh that a mesh got for a filling.
-struct FillingSubmesh {
-  Index mesh, submesh;
-};
+namespace sunder::tear {
 
 /// The walls that a stroke got so far. A plain value, so that a failing call can go back to a copy.
 struct LipWalls {

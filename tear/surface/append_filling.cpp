@@ -2,9 +2,10 @@
 
 namespace sunder::tear {
 
-Index append_submesh(Index mesh, const std::string& name, Index material, SurfaceEditor& editor) {
+Index submesh_of_fillings(Index mesh, const std::string& name, Index material,
+                          SurfaceEditor& editor) {
   editor.room.make_for_additions(mesh);
-  return editor.fillings.append_submesh(mesh, name, material);
+  return editor.fillings.find_or_append_submesh(mesh, name, material);
 }
 
 Index append_filling_point(SurfaceEditor& editor) {
@@ -12,14 +13,16 @@ Index append_filling_point(SurfaceEditor& editor) {
   return editor.connectivity.append_point();
 }
 
-Index append_filling(Index mesh, Index submesh, const std::array<Index, 3>& points,
+Index append_filling(const FillingSubmesh& to, const std::array<Index, 3>& points,
                      const Triangle& vertices, SurfaceEditor& editor) {
+  const Index mesh = to.mesh;
   editor.room.make_for_triangles(mesh, 1);
   editor.room.make_for_additions(mesh);
   const Surface& surface = editor.surface();
-  const Index origin = editor.fillings.append(mesh, vertices);
+  const Index origin = editor.fillings.append(mesh, to.group, vertices);
   const Index triangle = editor.connectivity.append_filling(
-      {mesh, editor.character().meshes[mesh].triangle_count(), origin}, submesh, points, vertices);
+      {mesh, editor.character().meshes[mesh].triangle_count(), origin}, to.submesh, points,
+      vertices);
   for (Index k = 0; k < 3; ++k) {
     if (!editor.births.give_birth(mesh, vertices[k], origin, k)) continue;  // of an earlier one
     editor.sides.write(mesh, vertices[k], surface.side(points[k]));

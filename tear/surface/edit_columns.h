@@ -57,12 +57,20 @@ struct Addition {
   Index mesh;
 };
 
+/// The fillings of a mesh that were made together: the walls of an operation, or the caps of one
+/// side of a cut. Groups are numbered in the order of their first fillings.
+struct FillingGroup {
+  Index group;
+  Index group_count;  ///< Groups up to this filling.
+};
+
 /// The columns of one mesh.
 struct MeshColumns {
   std::vector<Birth> births;                   ///< Per appended vertex.
   std::vector<VertexRecord> records;           ///< Per appended vertex.
   std::vector<Index> surface_triangles;        ///< Per appended triangle: its index in the surface.
   std::vector<Triangle> fillings;              ///< Per triangle of a wall or cap, as it was made.
+  std::vector<FillingGroup> filling_groups;    ///< Per filling.
   std::vector<std::uint64_t> filling_serials;  ///< Per filling.
   /// Per origin (triangles of the source, then fillings): its part that was appended last.
   std::vector<Index> newest_part;
@@ -175,6 +183,7 @@ void for_each_mesh_column(Index mesh, Visit visit, Tables&... of) {
   visit(Column{Rows::mesh_triangles}, of.meshes[mesh].triangle_submesh...);
   visit(Column{Rows::mesh_triangles}, of.edit.meshes[mesh].surface_triangles...);
   visit(Column{Rows::mesh_fillings}, of.edit.meshes[mesh].fillings...);
+  visit(Column{Rows::mesh_fillings}, of.edit.meshes[mesh].filling_groups...);
   visit(Column{Rows::mesh_fillings, 1, false}, of.edit.meshes[mesh].filling_serials...);
   visit(Column{Rows::mesh_fillings, 1, false}, of.edit.meshes[mesh].newest_part...);
   visit(Column{Rows::mesh_submeshes}, of.meshes[mesh].submeshes...);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <iterator>
 #include <string>
 
 #include "tear/surface/edit_columns.h"
@@ -38,22 +40,52 @@ class Fillings {
   }
   [[nodiscard]] std::uint64_t next_serial() const { return next_serial_; }
 
+  /// The group of a filling.
+  [[nodiscard]] Index group(Index mesh, Index origin) const {
+    return columns_.meshes[mesh]
+        .filling_groups[origin - source_.meshes[mesh].triangle_count()]
+        .group;
+  }
+  /// The number of groups of a mesh, which is also the number of its next one.
+  [[nodiscard]] Index group_count(Index mesh) const {
+    const auto& groups = columns_.meshes[mesh].filling_groups;
+    return groups.empty() ? 0 : groups.back().group_count;
+  }
+  /// The submesh that a triangle of a mesh would have if each group had one of its own. Digests are
+  /// made of it, as they were when that was so.
+  [[nodiscard]] Index submesh_of_group(const TriangleRef& triangle) const {
+    const Mesh& source = source_.meshes[triangle.mesh];
+    if (triangle.source_triangle < source.triangle_count())
+      return source.triangle_submesh[triangle.source_triangle];
+    return static_cast<Index>(source.submeshes.size()) +
+           group(triangle.mesh, triangle.source_triangle);
+  }
+
+  /// @param group  at most group_count(), which begins a new one.
   /// @return the origin. There must be room.
-  Index append(Index mesh, const Triangle& vertices) {
+  Index append(Index mesh, Index group, const Triangle& vertices) {
     std::vector<Triangle>& fillings = columns_.meshes[mesh].fillings;
     const Index origin =
         source_.meshes[mesh].triangle_count() + static_cast<Index>(fillings.size());
+    const Index groups = std::max(group_count(mesh), group + 1);
     fillings.push_back(vertices);
+    columns_.meshes[mesh].filling_groups.push_back({group, groups});
     columns_.additions.push_back({Addition::Kind::filling, mesh});
     complete(mesh);
     return origin;
   }
-  /// @return the index of the new submesh. There must be room.
-  Index append_submesh(Index mesh, const std::string& name, Index material) {
+  /// The submesh of fillings with a name and a material: all of them share one, so that an engine
+  /// draws them at once. It is made if there is none yet. There must be room.
+  Index find_or_append_submesh(Index mesh, const std::string& name, Index material) {
     auto& submeshes = character_.meshes[mesh].submeshes;
-    submeshes.push_back({name, material});
+    const Submesh wanted = {name, material};
+    const auto first = submeshes.begin() + std::ssize(source_.meshes[mesh].submeshes);
+    const auto known = std::find(first, submeshes.end(), wanted);
+    const auto submesh = static_cast<Index>(known - submeshes.begin());
+    if (known != submeshes.end()) return submesh;
+    submeshes.push_back(wanted);
     columns_.additions.push_back({Addition::Kind::submesh, mesh});
-    return static_cast<Index>(submeshes.size() - 1);
+    return submesh;
   }
   /// Appends the rows of the newest fillings that redo recomputes: new serials, and no parts.
   void complete(Index mesh) {

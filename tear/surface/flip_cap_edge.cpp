@@ -35,9 +35,11 @@ std::optional<CapQuadrilateral> quadrilateral_at(Index half_edge, const SurfaceE
   const Index bc = Surface::next(half_edge), ca = Surface::previous(half_edge),
               ad = Surface::next(twin), db = Surface::previous(twin);
   const TriangleRef f = surface.triangle(half_edge / 3), g = surface.triangle(twin / 3);
-  const auto& submesh_of = editor.character().meshes[f.mesh].triangle_submesh;
-  if (f.mesh != g.mesh || submesh_of[f.triangle] != submesh_of[g.triangle] ||
-      !is_whole_filling(f, editor) || !is_whole_filling(g, editor) || editor.fillings.is_wall(f) ||
+  const auto group_of = [&](const TriangleRef& filling) {
+    return editor.fillings.group(filling.mesh, filling.source_triangle);
+  };
+  if (f.mesh != g.mesh || !is_whole_filling(f, editor) || !is_whole_filling(g, editor) ||
+      group_of(f) != group_of(g) || editor.fillings.is_wall(f) ||
       editor.vertex_at(half_edge) != editor.vertex_at(ad) ||
       editor.vertex_at(bc) != editor.vertex_at(twin))
     return std::nullopt;
@@ -86,17 +88,17 @@ std::optional<std::array<Index, 2>> flip_cap_edge(Index half_edge, double least_
       !leaves_flat_faces(*of, least_shape_factor, editor))
     return std::nullopt;
   const TriangleRef face = surface.triangle(of->face);
-  const Index submesh = editor.character().meshes[face.mesh].triangle_submesh[face.triangle];
+  const FillingSubmesh of_cap = {
+      face.mesh, editor.character().meshes[face.mesh].triangle_submesh[face.triangle],
+      editor.fillings.group(face.mesh, face.source_triangle)};
   const auto [vertex_a, vertex_b, vertex_c, vertex_d] = of->vertices;
   editor.room.make_for_changes(4);
   for (const Index beyond : {of->beyond_bc, of->beyond_ca, of->beyond_ad, of->beyond_db})
     if (beyond != kNone) editor.log.keep(beyond / 3);
   retire_triangle(of->face, editor);
   retire_triangle(of->other, editor);
-  const Index first = append_filling(face.mesh, submesh, {a, d, c}, {vertex_a, vertex_d, vertex_c},
-                                     editor),
-              second = append_filling(face.mesh, submesh, {b, c, d}, {vertex_b, vertex_c, vertex_d},
-                                      editor);
+  const Index first = append_filling(of_cap, {a, d, c}, {vertex_a, vertex_d, vertex_c}, editor),
+              second = append_filling(of_cap, {b, c, d}, {vertex_b, vertex_c, vertex_d}, editor);
   Connectivity& connectivity = editor.connectivity;
   connectivity.join(3 * first, of->beyond_ad);
   connectivity.join(3 * first + 1, 3 * second + 1);

@@ -65,6 +65,7 @@ void MemoryUse::add(const EditColumns& columns) {
     add(mesh.records);
     add(mesh.surface_triangles);
     add(mesh.fillings);
+    add(mesh.filling_groups);
     add(mesh.filling_serials);
     add(mesh.newest_part);
     add(mesh.spare_sides);

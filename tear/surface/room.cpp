@@ -49,7 +49,7 @@ std::size_t fixed_rows(Rows rows, const TornCapacity& capacity, std::size_t mesh
   if (rows == Rows::mesh_fillings) return capacity.triangles / kTrianglesPerFilling;
   if (rows == Rows::additions) return capacity.triangles / kTrianglesPerFilling + 8 * mesh_count;
   if (rows == Rows::triangle_changes) return kChangesPerAppended * capacity.triangles;
-  // A cut gives each mesh one submesh for the caps of either side.
+  // The caps of either side of a cut may have materials that no earlier ones have.
   if (rows == Rows::mesh_submeshes) return std::size_t{2} * capacity.operations;
   return 0;
 }

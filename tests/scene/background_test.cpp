@@ -117,6 +117,82 @@ TEST(background, a_swap_leaves_what_a_call_in_its_frame_leaves) {
   }
 }
 
+TEST(background, a_detached_piece_is_the_one_of_a_call_in_its_frame) {
+  constexpr std::uint32_t kUpdates = 4;
+  const PieceNear place = {Vec3d(0, 6, 0), {}};
+  for (const PieceMotion motion : {PieceMotion::frozen, PieceMotion::animated, PieceMotion::none}) {
+    SCOPED_TRACE(static_cast<int>(motion));
+    DetachOptions options;
+    options.motion = motion;
+    const auto asset = soft_tube();
+    Scene swapped = make_scene({}, kUpdates);
+    Scene called = make_scene({});
+    const InstanceId in_swapped = spawn(swapped, asset), in_called = spawn(called, asset);
+    for (const auto& [scene, id] :
+         {std::pair(&swapped, in_swapped), std::pair(&called, in_called)}) {
+      ASSERT_TRUE(scene->submit(id, capped_cut(3.0)));
+      for (int i = 0; i < 200; ++i) ASSERT_TRUE(scene->update(kFrame));
+      ASSERT_TRUE(scene->find(id)->particles()->is_settled());
+    }
+    ASSERT_TRUE(swapped.submit(in_swapped, DetachCommand{place, options}, {.in_background = true}));
+    ModelPose pose;
+    DetachedPiece expected;
+    PieceTissue tissue;
+    for (std::uint32_t i = 0; i <= kUpdates; ++i) {
+      if (i == kUpdates)
+        expected = value_of(called.find(in_called)->detach(pose, place, options, nullptr, &tissue));
+      ASSERT_TRUE(swapped.update(kFrame));
+      ASSERT_TRUE(called.update(kFrame));
+      if (i == 0) pose = called.find(in_called)->pose();
+      ASSERT_EQ(swapped.results().size(), i == kUpdates ? 1u : 0u);
+    }
+    const CommandResult result = swapped.results()[0];
+    ASSERT_TRUE(result.status) << result.status.text();
+    ASSERT_NE(result.piece, nullptr);
+    ASSERT_EQ(result.report.pieces.size(), 1u);
+    EXPECT_EQ(result.report.pieces[0].triangle_count, expected.report.pieces[0].triangle_count);
+    EXPECT_EQ(result.piece->model_from_piece.matrix(), expected.model_from_piece.matrix());
+    EXPECT_EQ(result.piece->inertia_piece, expected.inertia_piece);
+    ASSERT_NE(result.tissue, nullptr);
+    EXPECT_EQ(result.tissue->points, tissue.points);
+    ASSERT_EQ(result.tissue->motions.size(), tissue.motions.size());
+    for (std::size_t i = 0; i < tissue.motions.size(); ++i)
+      ASSERT_EQ(result.tissue->motions[i].displacement, tissue.motions[i].displacement) << i;
+    ASSERT_EQ(result.piece->character == nullptr, motion == PieceMotion::none);
+    ASSERT_EQ(result.asset == nullptr, motion == PieceMotion::none);
+    if (motion != PieceMotion::none) {
+      EXPECT_EQ(*result.piece->character, *expected.character);
+      EXPECT_EQ(result.asset->character(), result.piece->character);
+      EXPECT_TRUE(result.asset->options().soft.has_value());
+      const InstanceId piece = value_of(swapped.spawn(result.asset));
+      EXPECT_TRUE(swapped.find(piece)->inherit_motion(*result.piece, *result.tissue));
+    }
+    for (int i = 0; i < 30; ++i) {
+      SCOPED_TRACE(i);
+      ASSERT_NO_FATAL_FAILURE(expect_same(swapped, in_swapped, called, in_called));
+      if (i == 15) {
+        ASSERT_TRUE(swapped.submit(in_swapped, UndoCommand{}));
+        ASSERT_TRUE(called.submit(in_called, UndoCommand{}));
+      }
+      ASSERT_TRUE(swapped.update(kFrame));
+      ASSERT_TRUE(called.update(kFrame));
+    }
+  }
+}
+
+TEST(background, a_piece_that_does_not_exist_is_a_failure) {
+  Scene scene = make_scene({}, 2);
+  const InstanceId id = spawn(scene, soft_tube());
+  ASSERT_TRUE(
+      scene.submit(id, DetachCommand{PieceNear{Vec3d::Zero(), {}}, {}}, {.in_background = true}));
+  for (int i = 0; i < 3; ++i) ASSERT_TRUE(scene.update(kFrame));
+  ASSERT_EQ(scene.results().size(), 1u);  // it is all that is left of the model
+  EXPECT_EQ(scene.results()[0].status.code(), StatusCode::invalid_argument);
+  EXPECT_EQ(scene.results()[0].piece, nullptr);
+  EXPECT_EQ(scene.results()[0].asset, nullptr);
+  EXPECT_EQ(scene.find(id)->model()->undo_count(), 0u);
+}
+
 TEST(background, strokes_do_not_wait) {
   HeldBackground background;
   const auto asset = soft_tube();

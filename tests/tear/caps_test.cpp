@@ -114,7 +114,7 @@ TEST(Caps, of_both_sides_have_the_same_points_and_opposite_normals) {
     const auto report = model.cut(pose, cut_through(place, random.direction()));
     ASSERT_TRUE(report) << report.error().text();
     const Mesh& mesh = model.character().meshes[0];
-    // The vertices of caps by their places, per submesh: one for either side.
+    // The vertices of caps by their places: one for either side.
     std::map<std::array<float, 3>, std::vector<std::uint32_t>> at;
     std::set<std::uint32_t> seen;
     for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {

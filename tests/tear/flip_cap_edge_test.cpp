@@ -26,7 +26,7 @@ class CappedSheet {
         character_(source_),
         editor_(source_, character_),
         first_(editor_.surface().triangle_count()) {
-    const Index submesh = append_submesh(0, "cap", kNone, editor_);
+    const FillingSubmesh of_cap = {0, submesh_of_fillings(0, "cap", kNone, editor_), 0};
     std::map<Index, std::array<Index, 2>> copies;  // point and vertex
     std::map<std::array<Index, 2>, Index> half_edges;
     for (const Triangle& triangle : source_.meshes[0].triangles) {
@@ -40,7 +40,7 @@ class CappedSheet {
         points[k] = copy->second[0];
         vertices[k] = copy->second[1];
       }
-      const Index face = append_filling(0, submesh, points, vertices, editor_);
+      const Index face = append_filling(of_cap, points, vertices, editor_);
       for (Index k = 0; k < 3; ++k) {
         half_edges[{points[k], points[(k + 1) % 3]}] = 3 * face + k;
         const auto other = half_edges.find({points[(k + 1) % 3], points[k]});

@@ -119,8 +119,13 @@ class SUNDER_API CharacterInstance {
   /// the newest one only. Until it is swapped in, lips do not go on to part. @return as
   /// OperationJob::create().
   Result<OperationJob> begin_operation(const Operation& operation);
+  /// The same for a detachment; the job makes the piece.
+  Result<OperationJob> begin_detach(const DetachOperation& operation,
+                                    const DetachOptions& options = {});
+  /// @param tissue  optional; as in detach(), for its job.
   /// @return as the swap_in() of the job.
-  Result<TearReport> swap_in(const OperationJob& job, ChangeRecord* change = nullptr);
+  Result<TearReport> swap_in(const OperationJob& job, ChangeRecord* change = nullptr,
+                             PieceTissue* tissue = nullptr);
   Result<WeightReport> swap_in(const RefitJob& job, ChangeRecord* change = nullptr);
 
   /// Advances to a pose and steps the soft body. O(bones), and the step. No allocation once warm.

@@ -14,6 +14,8 @@
 
 namespace sunder {
 
+class CharacterAsset;
+
 /// Names an instance of a Scene. The name of a destroyed instance never becomes that of another
 /// one.
 struct InstanceId {
@@ -73,17 +75,20 @@ struct CommandResult {
   std::shared_ptr<const DetachedPiece> piece;  ///< Of a DetachCommand that succeeded.
   /// The motion of that piece if it was soft, for CharacterInstance::inherit_motion().
   std::shared_ptr<const PieceTissue> tissue;
+  /// An asset of that piece, if the command ran in the background: with the options of the
+  /// instance's, without coarser levels. Null without enough memory for it.
+  std::shared_ptr<const CharacterAsset> asset;
   std::vector<ChangeRecord> changes;  ///< If CommandOptions::wants_changes.
 };
 
 struct CommandOptions {
   bool wants_changes = false;  ///< Whether the result lists the changes, for engines that mirror
                                ///< births and lips.
-  /// For tears, cuts, bores and weights that take longer than a frame: runs on another thread while
-  /// the instance is drawn as it was, and is swapped in by a later update, which only exchanges
-  /// what was prepared. It acts in the pose of the update that takes it. Later commands of the
-  /// instance wait for it, but not for a refit. Those of strokes do not wait: they are applied
-  /// before it, and it runs again on what they leave.
+  /// For tears, cuts, bores, pieces and weights that take longer than a frame: runs on another
+  /// thread while the instance is drawn as it was, and is swapped in by a later update, which only
+  /// exchanges what was prepared. It acts in the pose of the update that takes it. Later commands
+  /// of the instance wait for it, but not for a refit. Those of strokes do not wait: they are
+  /// applied before it, and it runs again on what they leave.
   bool in_background = false;
 };
 

@@ -36,6 +36,10 @@ class SUNDER_API OperationJob {
   ///         TornModel::history(). O(size of the operations), allocates.
   static Result<OperationJob> create(TornModel& model, const Operation& operation,
                                      Observer observer = {});
+  /// A detachment whose piece is wanted: it is made in run(); see detach() of a model.
+  /// @return as above.
+  static Result<OperationJob> create(TornModel& model, const DetachOperation& operation,
+                                     const DetachOptions& options, Observer observer = {});
   /// Replays the history and runs the operation. Call it once, on any thread; it does not access
   /// the model. O(size of the model + its operations). The result has the same bits as the call of
   /// the operation.
@@ -43,6 +47,8 @@ class SUNDER_API OperationJob {
   [[nodiscard]] State poll() const;
   /// The cause, if poll() returns `failed`: what the call of the operation returns.
   [[nodiscard]] const Status& failure() const;
+  /// The piece of a detachment with options, once poll() returns `done`; null for other operations.
+  [[nodiscard]] std::shared_ptr<const DetachedPiece> piece() const;
   /// Makes the model as if the operation had been called now. O(changes by the operation).
   /// @return invalid_argument for a job that is not done, or if the model has changed since
   ///         create(); capacity_exceeded or limit_exceeded: the model is unchanged, and the job can
@@ -54,6 +60,9 @@ class SUNDER_API OperationJob {
 
  private:
   explicit OperationJob(std::shared_ptr<tear::OperationTask> task);
+  static Result<std::shared_ptr<tear::OperationTask>> make_task(TornModel& model,
+                                                                const Operation& operation,
+                                                                Observer observer);
   std::shared_ptr<tear::OperationTask> task_;
 };
 

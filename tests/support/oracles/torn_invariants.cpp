@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
 #include <map>
 #include <set>
 
@@ -58,7 +59,7 @@ void check_cover(const TornModel& model, std::uint32_t m, std::vector<std::strin
 }
 
 /// Origins of triangles do not change; parts have the submesh of their origin, walls and caps have
-/// submeshes of their own.
+/// submeshes of their own, one per name and material.
 void check_origins(const TornModel& model, std::uint32_t m, std::vector<std::string>& faults) {
   const Mesh &torn = model.character().meshes[m], &source = model.source().meshes[m];
   std::vector<std::uint32_t> submesh = source.triangle_submesh;
@@ -66,6 +67,10 @@ void check_origins(const TornModel& model, std::uint32_t m, std::vector<std::str
   if (torn.submeshes.size() < source.submeshes.size() ||
       !std::equal(source.submeshes.begin(), source.submeshes.end(), torn.submeshes.begin()))
     faults.push_back(say("mesh ", m, ": a submesh of the source changed"));
+  const auto first = torn.submeshes.begin() + std::ssize(source.submeshes);
+  for (auto of_fillings = first; of_fillings < torn.submeshes.end(); ++of_fillings)
+    if (std::find(first, of_fillings, *of_fillings) != of_fillings)
+      faults.push_back(say("mesh ", m, ": two submeshes of fillings have one name and material"));
   for (std::uint32_t t = 0; t < torn.triangle_count(); ++t) {
     const std::uint32_t origin = model.source_triangle(m, t);
     if (origin >= submesh.size()) continue;  // reported by check_cover()
