@@ -8,6 +8,13 @@ namespace sunder {
 namespace {
 
 constexpr std::size_t kMost = 3;  ///< Names that are proposed.
+/// Of longer names only the beginnings are compared: files may have names of megabytes, and the
+/// time grows with the product of two lengths.
+constexpr std::size_t kMostLetters = 128;
+
+std::string_view beginning_of(std::string_view name) {
+  return without_namespace(name).substr(0, kMostLetters);
+}
 
 std::string without_capitals(std::string text) {
   std::ranges::transform(text, text.begin(), [](unsigned char letter) {
@@ -65,15 +72,16 @@ std::vector<std::string> words_of(std::string_view name) {
 
 std::vector<std::string> nearest_names(const std::string& wanted,
                                        std::span<const std::string> names) {
-  const std::string key = without_capitals(std::string(without_namespace(wanted)));
+  const std::string key = without_capitals(std::string(beginning_of(wanted)));
   std::vector<std::pair<std::size_t, std::string>> near;
   for (const std::string& name : names) {
-    const std::string other = without_capitals(std::string(without_namespace(name)));
+    const std::string_view beginning = beginning_of(name);
+    const std::string other = without_capitals(std::string(beginning));
     const std::size_t edits = edit_distance(key, other);
     const bool is_part =
         key.size() > 2 && (other.find(key) != std::string::npos ||
                            (other.size() > 2 && key.find(other) != std::string::npos));
-    if (is_part || is_near(edits, key, other) || is_near_a_word(key, without_namespace(name)))
+    if (is_part || is_near(edits, key, other) || is_near_a_word(key, beginning))
       near.emplace_back(edits, name);
   }
   std::ranges::stable_sort(near, {}, &std::pair<std::size_t, std::string>::first);

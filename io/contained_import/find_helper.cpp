@@ -1,15 +1,10 @@
 #include "io/contained_import/find_helper.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <dlfcn.h>
-#include <fcntl.h>
 #include <string>
 #include <sys/auxv.h>
-#include <sys/stat.h>
 #include <system_error>
-#include <unistd.h>
 #include <utility>
 #include <vector>
 
@@ -20,8 +15,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kName = "sunder-import";
-/// A new process gets its streams and its socket below this one.
-constexpr int kLeastDescriptor = 10;
 
 /// A folder that holds this code, and the folder of its kind in an installation: "lib", "bin".
 struct OwnFolder {
@@ -89,52 +82,11 @@ std::vector<fs::path> places_of(const std::vector<OwnFolder>& folders) {
   return places;
 }
 
-/// Whether nobody but root and the effective user can change it.
-bool is_ours(const struct stat& about) {
-  const uid_t user = geteuid();
-  if (about.st_uid != 0 && about.st_uid != user) return false;
-  if ((about.st_mode & S_IWOTH) != 0) return false;
-  const bool is_private_group = user != 0 && about.st_uid == user && about.st_gid == user;
-  return (about.st_mode & S_IWGRP) == 0 || is_private_group;
-}
-
-Status unusable(const fs::path& file, const char* why) {
-  return Status::failure(StatusCode::file_unreadable, kNone, "the helper executable '%.140s' %s",
-                         file.c_str(), why);
-}
-
-/// @return file_not_found if nothing is there.
-Result<HelperFile> open_helper(const fs::path& file) {
-  std::error_code error;
-  const fs::path whole = fs::canonical(file, error);
-  if (error)
-    return Status::failure(StatusCode::file_not_found, kNone, "no file '%.200s'", file.c_str());
-  const files::Descriptor folder(
-      ::open(whole.parent_path().c_str(), O_PATH | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
-  const files::Descriptor opened(
-      openat(folder.value(), whole.filename().c_str(), O_PATH | O_NOFOLLOW | O_CLOEXEC));
-  struct stat of_file = {}, of_folder = {};
-  if (!opened.is_open() || fstat(folder.value(), &of_folder) != 0 ||
-      fstat(opened.value(), &of_file) != 0)
-    return unusable(file, "cannot be opened");
-  if (!S_ISREG(of_file.st_mode) ||
-      faccessat(folder.value(), whole.filename().c_str(), X_OK, AT_EACCESS) != 0)
-    return unusable(file, "is not an executable file");
-  if (!is_ours(of_file))
-    return unusable(file, "is refused: another user owns it or can write to it");
-  if (!is_ours(of_folder))
-    return unusable(file, "is refused: another user owns its folder or can write to it");
-  files::Descriptor above(fcntl(opened.value(), F_DUPFD_CLOEXEC, kLeastDescriptor));
-  if (!above.is_open())
-    return Status::failure(StatusCode::limit_exceeded, kNone, "too many open files");
-  return HelperFile{file, std::move(above)};
-}
-
 }  // namespace
 
-Result<HelperFile> find_helper(const fs::path& named) {
+Result<OwnProgram> find_helper(const fs::path& named) {
   if (!named.empty()) {
-    Result<HelperFile> helper = open_helper(named);
+    Result<OwnProgram> helper = open_own_program(named);
     if (helper || helper.error().code() == StatusCode::limit_exceeded) return helper;
     return Status::failure(helper.error().code(), kNone, "LoadOptions::import_helper: %s",
                            helper.error().text().data());
@@ -142,7 +94,7 @@ Result<HelperFile> find_helper(const fs::path& named) {
   const std::vector<OwnFolder> folders = own_folders();
   Status refusal;
   for (const fs::path& place : places_of(folders)) {
-    Result<HelperFile> helper = open_helper(place);
+    Result<OwnProgram> helper = open_own_program(place);
     if (helper || helper.error().code() == StatusCode::limit_exceeded) return helper;
     if (refusal && helper.error().code() != StatusCode::file_not_found) refusal = helper.error();
   }

@@ -98,7 +98,7 @@ files::Descriptor descriptor_of_process([[maybe_unused]] pid_t id, [[maybe_unuse
 
 }  // namespace
 
-Result<HelperProcess> HelperProcess::start(const HelperFile& helper, Clock::time_point deadline) {
+Result<HelperProcess> HelperProcess::start(const OwnProgram& helper, Clock::time_point deadline) {
   int ends[2];
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
     return Status::failure(StatusCode::limit_exceeded, kNone,

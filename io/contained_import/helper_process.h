@@ -17,7 +17,7 @@ class HelperProcess {
   /// descriptor, an environment of LD_LIBRARY_PATH and settings of malloc, in a session of its own.
   /// @return file_unreadable if it cannot be executed, limit_exceeded if there are no descriptors
   ///         or processes.
-  [[nodiscard]] static Result<HelperProcess> start(const HelperFile& helper,
+  [[nodiscard]] static Result<HelperProcess> start(const OwnProgram& helper,
                                                    import_messages::Clock::time_point deadline);
 
   HelperProcess(HelperProcess&& other) noexcept;

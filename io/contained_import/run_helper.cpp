@@ -159,7 +159,7 @@ Result<ImportedGlb> run_helper(const ModelFile& model, files::AllowedFiles& allo
   const auto deadline =
       Clock::now() + std::chrono::duration_cast<Clock::duration>(
                          std::chrono::duration<double>(std::min(options.import_seconds, 1e8)));
-  const Result<HelperFile> helper = find_helper(options.import_helper);
+  const Result<OwnProgram> helper = find_helper(options.import_helper);
   if (!helper) return helper.error();
   Result<HelperProcess> process = HelperProcess::start(*helper, deadline);
   if (!process) return process.error();

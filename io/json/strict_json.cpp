@@ -13,11 +13,13 @@ namespace {
 using Json = StrictJson;
 
 constexpr std::size_t kMaximumDepth = 32;  ///< An operation log needs 9.
+/// Bytes of the tree. A log of the largest size takes a third of it; of empty objects, thrice it.
+constexpr std::size_t kMaximumTree = std::size_t{768} << 20;
 
 /// Builds the tree from the parser's events, and refuses what is not visible in the tree: nesting
-/// and repeated fields. The parser's own builders take quadratic time: with a callback, they search
-/// the enclosing array at the end of each object, and without one, they search an object for each
-/// of its fields.
+/// and repeated fields; and a tree that takes many times the memory of the text. The parser's own
+/// builders take quadratic time: with a callback, they search the enclosing array at the end of
+/// each object, and without one, they search an object for each of its fields.
 class TreeBuilder : public Json::json_sax_t {
  public:
   explicit TreeBuilder(std::string_view text) : text_(text) {}
@@ -32,7 +34,10 @@ class TreeBuilder : public Json::json_sax_t {
   bool number_float(number_float_t value, const string_t& /*text*/) override {
     return add(value) != nullptr;
   }
-  bool string(string_t& value) override { return add(std::move(value)) != nullptr; }
+  bool string(string_t& value) override {
+    memory_ += kBlock + value.size();
+    return add(std::move(value)) != nullptr;
+  }
   bool binary(binary_t& /*value*/) override { return false; }  // not in a text
   bool start_object(std::size_t /*size*/) override { return open(Json::object()); }
   bool start_array(std::size_t /*size*/) override { return open(Json::array()); }
@@ -47,6 +52,7 @@ class TreeBuilder : public Json::json_sax_t {
                                "field '%s' occurs twice in one object", name.c_str());
       return false;
     }
+    memory_ += kBlock + name.size();
     fields_of(object).emplace_back(std::move(name), Json());
     return true;
   }
@@ -67,6 +73,9 @@ class TreeBuilder : public Json::json_sax_t {
     Json* value = nullptr;
     std::set<std::string> names;  ///< Of its fields; empty while there are few.
   };
+
+  /// What an allocation of its own takes: that of a string, an array or an object.
+  static constexpr std::size_t kBlock = 64;
 
   static Json::object_t& fields_of(const Open& object) {
     return object.value->get_ref<Json::object_t&>();
@@ -91,9 +100,17 @@ class TreeBuilder : public Json::json_sax_t {
     return true;
   }
 
-  /// @return where it was put; null if it is nested too deeply.
+  bool is_too_large() {
+    if (memory_ <= kMaximumTree) return false;
+    fault_ = Status::failure(StatusCode::limit_exceeded, kNone,
+                             "the values of the JSON take more than %zu bytes", kMaximumTree);
+    return true;
+  }
+
+  /// @return where it was put; null if it is nested too deeply, or beyond the memory.
   Json* add(Json value) {
-    if (is_too_deep()) return nullptr;
+    memory_ += sizeof(Json);
+    if (is_too_deep() || is_too_large()) return nullptr;
     if (open_.empty()) {
       tree_ = std::move(value);
       return &tree_;
@@ -111,6 +128,7 @@ class TreeBuilder : public Json::json_sax_t {
 
   /// The address stays valid until the end of the value: nothing is added to its parent before.
   bool open(Json value) {
+    memory_ += kBlock;
     Json* const added = add(std::move(value));
     if (added == nullptr) return false;
     open_.push_back({added, {}});
@@ -125,6 +143,7 @@ class TreeBuilder : public Json::json_sax_t {
   std::string_view text_;
   Json tree_;
   std::vector<Open> open_;  ///< Outermost first.
+  std::size_t memory_ = 0;  ///< Of the tree, about.
   Status fault_;
 };
 

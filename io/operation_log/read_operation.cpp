@@ -11,6 +11,9 @@
 namespace sunder::operation_log {
 namespace {
 
+/// Of a log: an operation takes up to a hundred times the memory of its text.
+constexpr std::size_t kMaximumOperations = 1'000'000;
+
 void read_stroke(const Place& place, TearOperation& tear) {
   const std::size_t count = read_array(place, "an array of blades").size();
   if (count < 2) place.malformed("a stroke needs at least two blades");
@@ -196,7 +199,10 @@ auto read_entries(const Json& log, const Character* model, Read read) {
 
   const Place list = root.at("operations");
   std::vector<decltype(read(list))> entries;
-  entries.reserve(read_array(list, "an array").size());
+  if (const std::size_t count = read_array(list, "an array").size(); count > kMaximumOperations)
+    list.fail(StatusCode::limit_exceeded, std::to_string(count) + " operations; the limit is " +
+                                              std::to_string(kMaximumOperations));
+  entries.reserve(list.value.size());
   for (std::size_t i = 0; i < list.value.size(); ++i) {
     Place one = list.at(i);
     one.operation = static_cast<std::uint32_t>(i);

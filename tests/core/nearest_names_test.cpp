@@ -42,6 +42,15 @@ TEST(NearestNames, a_word_of_a_name_is_enough) {
   EXPECT_THAT(nearest_names("Wing", bones), IsEmpty());
 }
 
+/// Files and logs may have names of megabytes; their product is no bound of the time.
+TEST(NearestNames, long_names_are_compared_by_their_beginnings) {
+  const std::string begin(100, 'a'), many(300'000, 'b');
+  const std::vector<std::string> names = {many, begin + many, "x:" + begin + "c"};
+  EXPECT_THAT(nearest_names(begin + many + "d", names), ElementsAre(names[1], names[2]));
+  EXPECT_THAT(nearest_names(many + many, names), ElementsAre(many));
+  EXPECT_THAT(nearest_names(std::string(1'000'000, 'z'), names), IsEmpty());
+}
+
 TEST(NearestNames, are_listed_as_one_says_them) {
   const std::vector<std::string> names = {"Walk", "Run", "Jump"};
   EXPECT_EQ(listed_names({}), "");

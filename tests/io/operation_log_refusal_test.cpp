@@ -399,5 +399,27 @@ TEST(OperationLog, SizeIsALimit) {
   EXPECT_EQ(operations.error().code(), StatusCode::limit_exceeded);
 }
 
+/// An operation takes a hundred times the memory of its text, and so does an empty value.
+TEST(OperationLog, WhatATextBecomesIsALimit) {
+  const auto repeated = [](const std::string& begin, std::string_view one, std::size_t count,
+                           const std::string& end) {
+    std::string text = begin;
+    text.reserve(begin.size() + one.size() * count + end.size());
+    for (std::size_t i = 0; i < count; ++i) text += one;
+    return text + end;
+  };
+  const std::string head = R"({"sunder_operations": 1, "operations": [)";
+  const std::string_view undo = R"({"op":"undo"},)";
+  const auto many = parse_operations(repeated(head, undo, 1'000'000, R"({"op":"undo"}]})"));
+  ASSERT_FALSE(many);
+  EXPECT_EQ(many.error().code(), StatusCode::limit_exceeded);
+  EXPECT_NE(many.error().text().find("1000001 operations"), std::string_view::npos);
+  for (const std::string_view one : {"{},", R"("",)"}) {
+    const auto values = parse_operations(repeated(head, one, 20'000'000, "0]}"));
+    ASSERT_FALSE(values);
+    EXPECT_EQ(values.error().code(), StatusCode::limit_exceeded) << one;
+  }
+}
+
 }  // namespace
 }  // namespace sunder

@@ -1,6 +1,8 @@
 // Logs with coupled refits: `sunder` does not link Ceres, and becomes the program that does.
 
 #include <filesystem>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "tools/command_fixture.h"
 
@@ -88,7 +90,35 @@ TEST_F(CoupledRefitCommand, only_a_program_of_the_installation_is_run) {
   fs::permissions(installed, fs::perms::others_write, fs::perm_options::add);
   const CommandResult writable = run_copy(folder, operations);
   EXPECT_EQ(writable.exit_code, 3) << writable.out << writable.err;
-  EXPECT_THAT(writable.err, HasSubstr("every user can change it"));
+  EXPECT_THAT(writable.err, HasSubstr("is refused: another user"));
+  if (geteuid() != 0) return;
+  fs::permissions(installed, fs::perms::others_write, fs::perm_options::remove);
+  for (const fs::path& of : {installed, installed.parent_path()}) {
+    ASSERT_EQ(chown(of.c_str(), 12345, 12345), 0);
+    const CommandResult of_another_user = run_copy(folder, operations);
+    EXPECT_EQ(of_another_user.exit_code, 3) << of_another_user.out;
+    ASSERT_EQ(chown(of.c_str(), 0, 0), 0);
+  }
+}
+
+/// Without /proc, and for a program that was deleted while it ran, the system does not say where
+/// the program is.
+TEST_F(CoupledRefitCommand, the_current_folder_is_not_searched_if_the_own_one_is_unknown) {
+  const fs::path folder = path("replaced/bin"), models = path("replaced/models");
+  const std::string pipe = path("replaced_log");
+  fs::create_directories(folder);
+  fs::copy_file(SUNDER_COMMAND, folder / "sunder", fs::copy_options::overwrite_existing);
+  for (const fs::path& planted : {models, models.parent_path() / "libexec"})
+    write_program(planted / "sunder-coupled-refit");
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  // The log comes when the program has opened the pipe, and is gone.
+  const std::string script =
+      "cd '" + models.string() + "' && { { exec 3>'" + pipe + "'; rm '" +
+      (folder / "sunder").string() + "'; cat '" + log("replaced.json", true) + "' >&3; } & '" +
+      (folder / "sunder").string() + "' tear '" + model() + "' --ops '" + pipe + "' -o copy.glb; }";
+  const CommandResult refused = test::run_program("/bin/sh", {"-c", script});
+  EXPECT_EQ(refused.exit_code, 2) << refused.err;
+  EXPECT_THAT(refused.out, testing::Not(HasSubstr("another program"))) << refused.err;
 }
 
 }  // namespace

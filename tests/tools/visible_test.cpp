@@ -85,5 +85,16 @@ TEST(Lines, a_name_neither_ends_a_line_nor_begins_a_command) {
       "\\x3a:error::x\n  \\x3a:error::x\na\\n::error::x\n\x1b[31merror\x1b[0m b\\x1b[0m\\n\n");
 }
 
+/// GitHub's runner removes white space of Unicode from the beginning of a line.
+TEST(Lines, no_white_space_hides_the_beginning_of_a_command) {
+  for (const char* const space : {" ", "\u00a0", "\u1680", "\u2000", "\u2003", "\u200a", "\u202f",
+                                  "\u205f", "\u3000", "\u3000 \u00a0"})
+    EXPECT_EQ(visible_line(std::string(space) + "::error::x"),
+              std::string(space) + "\\x3a:error::x");
+  // The other white space is shown as escapes, so that the line begins with these.
+  for (const char* const space : {"\t", "\v", "\f", "\u0085", "\u2028", "\u200b", "\ufeff"})
+    EXPECT_TRUE(visible_line(std::string(space) + "::error::x").starts_with('\\'));
+}
+
 }  // namespace
 }  // namespace sunder::tools

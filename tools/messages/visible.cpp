@@ -1,8 +1,10 @@
 #include "tools/messages/visible.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstdio>
+#include <span>
 
 namespace sunder::tools {
 namespace {
@@ -52,10 +54,26 @@ constexpr Range kUnseen[] = {
     {0xe0000, 0xe007f}  // tags
 };
 
-bool is_unseen(char32_t code) {
-  for (const Range& range : kUnseen)
-    if (code >= range.first && code <= range.last) return true;
-  return false;
+/// White space of Unicode that is not in kUnseen. GitHub's runner skips it before a command.
+constexpr Range kSpaces[] = {{' ', ' '},       {0xa0, 0xa0},     {0x1680, 0x1680}, {0x2000, 0x200a},
+                             {0x202f, 0x202f}, {0x205f, 0x205f}, {0x3000, 0x3000}};
+
+bool is_in(std::span<const Range> ranges, char32_t code) {
+  return std::ranges::any_of(
+      ranges, [&](const Range& range) { return code >= range.first && code <= range.last; });
+}
+
+bool is_unseen(char32_t code) { return is_in(kUnseen, code); }
+
+/// Where the white space ends with which a line begins.
+std::size_t end_of_indent(std::string_view line) {
+  std::size_t end = 0;
+  while (end < line.size()) {
+    const CodePoint character = character_at(line, end);
+    if (!character.is_valid || !is_in(kSpaces, character.code)) break;
+    end += character.bytes;
+  }
+  return end;
 }
 
 std::string numbered(const char* format, unsigned number) {
@@ -103,9 +121,8 @@ std::string visible(std::string_view text) {
 
 std::string visible_line(std::string_view line) {
   std::string shown = visible(line);
-  const std::size_t begin = shown.find_first_not_of(' ');
-  if (begin != std::string::npos && shown.compare(begin, 2, "::") == 0)
-    shown.replace(begin, 1, "\\x3a");
+  const std::size_t begin = end_of_indent(shown);
+  if (shown.compare(begin, 2, "::") == 0) shown.replace(begin, 1, "\\x3a");
   return shown;
 }
 

@@ -11,7 +11,8 @@ namespace sunder::tools {
 /// services begin a command ("##[error]"), the second sign becomes "\x23". Everything else stays.
 [[nodiscard]] std::string visible(std::string_view text);
 
-/// visible(), and "\x3a:" where the line begins with "::", by which GitHub's commands begin.
+/// visible(), and "\x3a:" where the line begins with "::", by which GitHub's commands begin, also
+/// after white space of any kind.
 [[nodiscard]] std::string visible_line(std::string_view line);
 
 /// The same for a JSON text, by the escapes of JSON: its value is the same. Line breaks between

@@ -3,16 +3,17 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <fcntl.h>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
-#include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
 #include <variant>
 #include <vector>
 
+#include "io/internal/own_program.h"
 #include "weights/internal/coupled_refit.h"
 
 namespace sunder::tools {
@@ -31,26 +32,17 @@ bool asks_for_coupled_refit(const LoggedOperation& logged) {
          weights->refit.is_coupled;
 }
 
-/// Whether every user can change it.
-bool is_writable_by_all(const fs::path& file) {
-  struct stat about = {};
-  return stat(file.c_str(), &about) != 0 || (about.st_mode & S_IWOTH) != 0;
-}
-
 /// Only in places that belong to this program's installation, or to its build: neither the current
-/// folder nor PATH is searched.
-Result<fs::path> find_program() {
+/// folder nor PATH is searched, also if the place of this program is not known: without /proc, or
+/// after it was deleted.
+Result<OwnProgram> find_program() {
   std::error_code error;
-  const fs::path own = fs::canonical("/proc/self/exe", error).parent_path();
-  for (const char* const place : {SUNDER_LIBEXEC_FROM_BIN, "."}) {
-    const fs::path folder = fs::canonical(own / place, error);
-    const fs::path program = folder / kName;
-    if (error || !fs::exists(program, error)) continue;
-    if (is_writable_by_all(folder) || is_writable_by_all(program))
-      return Status::failure(StatusCode::file_unreadable, kNone,
-                             "'%.160s' is not run: every user can change it", program.c_str());
-    return program;
-  }
+  const fs::path own = fs::canonical("/proc/self/exe", error);
+  if (!error)
+    for (const char* const place : {SUNDER_LIBEXEC_FROM_BIN, "."}) {
+      Result<OwnProgram> program = open_own_program(own.parent_path() / place / kName);
+      if (program || program.error().code() != StatusCode::file_not_found) return program;
+    }
   return Status::failure(
       StatusCode::unsupported_feature, kNone,
       "neighbours are fitted together (\"coupled\") by the program '%s', which is not installed "
@@ -70,16 +62,17 @@ std::vector<std::string> own_arguments() {
 Status provide_coupled_refits(std::span<const LoggedOperation> log) {
   if (has_coupled_refit() || std::none_of(log.begin(), log.end(), asks_for_coupled_refit))
     return {};
-  const Result<fs::path> program = find_program();
+  const Result<OwnProgram> program = find_program();
   if (!program) return program.error();
   std::vector<std::string> arguments = own_arguments();
   std::vector<char*> pointers;
   std::transform(arguments.begin(), arguments.end(), std::back_inserter(pointers),
                  [](std::string& argument) { return argument.data(); });
   pointers.push_back(nullptr);
-  execv(program->c_str(), pointers.data());
+  // The file that was checked; kept open, so that scripts can be read.
+  fexecve(fcntl(program->descriptor.value(), F_DUPFD, 0), pointers.data(), environ);
   return Status::failure(StatusCode::file_unreadable, kNone, "cannot start '%.160s': %s",
-                         program->c_str(), std::strerror(errno));
+                         program->path.c_str(), std::strerror(errno));
 }
 
 }  // namespace sunder::tools
