@@ -2,15 +2,17 @@
 
 #include <algorithm>
 
+#include "core/internal/index_set.h"
+
 namespace sunder::scene {
 
-PieceTissue tissue_of(const DetachedPiece& piece, const SoftBody& body) {
+PieceTissue tissue_of(const DetachedPiece& piece, std::uint32_t point_count, const SoftBody& body) {
   PieceTissue tissue;
+  IndexSet points(point_count);
   for (const DetachedPiece::OfMesh& of : piece.meshes)
     for (const auto& corners : of.old_points)
-      tissue.points.insert(tissue.points.end(), corners.begin(), corners.end());
-  std::sort(tissue.points.begin(), tissue.points.end());
-  tissue.points.erase(std::unique(tissue.points.begin(), tissue.points.end()), tissue.points.end());
+      for (const std::uint32_t point : corners) points.insert(point);
+  tissue.points = points.list();
   tissue.motions.reserve(tissue.points.size());
   for (const std::uint32_t point : tissue.points) tissue.motions.push_back(body.motion_of(point));
   return tissue;

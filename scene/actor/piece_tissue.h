@@ -5,8 +5,9 @@
 namespace sunder::scene {
 
 /// The motion of tissue at the points of a piece, which the particles have not followed yet.
-/// @throws std::bad_alloc
-[[nodiscard]] PieceTissue tissue_of(const DetachedPiece& piece, const SoftBody& body);
+/// @param point_count  of the torn model. @throws std::bad_alloc
+[[nodiscard]] PieceTissue tissue_of(const DetachedPiece& piece, std::uint32_t point_count,
+                                    const SoftBody& body);
 
 /// That motion at the points of a soft instance of the piece. @throws std::bad_alloc
 [[nodiscard]] std::vector<PointMotion> motions_of(const DetachedPiece& piece,

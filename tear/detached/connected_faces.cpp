@@ -1,23 +1,20 @@
 #include "tear/detached/connected_faces.h"
 
-#include <algorithm>
-
+#include "core/internal/index_set.h"
 #include "tear/surface/disconnect.h"
 
 namespace sunder::tear {
 
 std::vector<Index> connected_faces(Index face, const Surface& surface) {
   std::vector<Index> faces = {face};
-  std::vector<bool> is_seen(surface.triangle_count(), false);
-  is_seen[face] = true;
+  IndexSet seen(surface.triangle_count());
+  seen.insert(face);
   for (std::size_t i = 0; i < faces.size(); ++i)
     for (Index h = 3 * faces[i]; h < 3 * faces[i] + 3; ++h) {
-      if (surface.twin[h] == kNone || is_seen[surface.twin[h] / 3]) continue;
-      is_seen[surface.twin[h] / 3] = true;
-      faces.push_back(surface.twin[h] / 3);
+      const Index twin = surface.twin[h];
+      if (twin != kNone && seen.insert(twin / 3)) faces.push_back(twin / 3);
     }
-  std::sort(faces.begin(), faces.end());
-  return faces;
+  return seen.list();
 }
 
 bool has_others(const std::vector<Index>& faces, const Surface& surface) {

@@ -4,8 +4,8 @@
 
 namespace sunder::tear {
 
-/// The faces connected with `face` across edges, ascending. O(faces log faces), and one
-/// bit per face of the surface. @throws std::bad_alloc
+/// The faces connected with `face` across edges, ascending. O(faces), and two bits
+/// per face of the surface. @throws std::bad_alloc
 [[nodiscard]] std::vector<Index> connected_faces(Index face, const Surface& surface);
 
 /// Whether the surface has a face that is not among `faces`, which are ascending. O(faces), and

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "core/internal/index_set.h"
+
 namespace sunder::tear {
 namespace {
 
@@ -47,23 +49,21 @@ void copy_vertices(const Mesh& from, const std::vector<Index>& vertices, Mesh& t
 }
 
 /// Triangles with the new vertices, and the submeshes that they use.
-void copy_triangles(const Mesh& from, const DetachedPiece::OfMesh& map, Mesh& to) {
-  std::vector<Index> submeshes;
-  for (const Index old : map.triangle_old_from_new) {
-    Triangle triangle = from.triangles[old];
-    for (Index& vertex : triangle) vertex = place_in(map.vertex_old_from_new, vertex);
-    to.triangles.push_back(triangle);
-    submeshes.push_back(from.triangle_submesh[old]);
-  }
-  to.triangle_submesh = submeshes;
-  sort_and_unite(submeshes);
-  for (Index& submesh : to.triangle_submesh) submesh = place_in(submeshes, submesh);
-  to.submeshes = gather(from.submeshes, submeshes);
+void copy_triangles(const Mesh& from, const std::vector<Index>& triangles, const IndexSet& vertices,
+                    Mesh& to) {
+  to.triangles = gather(from.triangles, triangles);
+  to.triangle_submesh = gather(from.triangle_submesh, triangles);
+  for (Triangle& triangle : to.triangles)
+    for (Index& vertex : triangle) vertex = vertices.place_of(vertex);
+  IndexSet submeshes(static_cast<Index>(from.submeshes.size()));
+  for (const Index submesh : to.triangle_submesh) submeshes.insert(submesh);
+  to.submeshes = gather(from.submeshes, submeshes.list());
+  for (Index& submesh : to.triangle_submesh) submesh = submeshes.place_of(submesh);
 }
 
-/// The triangles and vertices of a piece, per mesh of the model.
-std::vector<DetachedPiece::OfMesh> make_maps(const std::vector<Index>& faces,
-                                             const SurfaceEditor& editor) {
+/// The triangles of a piece, per mesh of the model; the vertices are left out.
+std::vector<DetachedPiece::OfMesh> make_triangle_maps(const std::vector<Index>& faces,
+                                                      const SurfaceEditor& editor) {
   const auto& meshes = editor.character().meshes;
   std::vector<DetachedPiece::OfMesh> maps(meshes.size());
   for (const Index face : faces) {
@@ -72,34 +72,40 @@ std::vector<DetachedPiece::OfMesh> make_maps(const std::vector<Index>& faces,
     DetachedPiece::OfMesh& map = maps[ref.mesh];
     map.mesh = ref.mesh;
     map.triangle_old_from_new.push_back(ref.triangle);
-    const Triangle& triangle = mesh.triangles[ref.triangle];
-    map.vertex_old_from_new.insert(map.vertex_old_from_new.end(), triangle.begin(), triangle.end());
     const Index* points = &editor.surface().corner_point[3 * face];
     map.old_points.push_back({points[0], points[1], points[2]});
     const Skin& skin = editor.character().skins[mesh.skin];
-    map.bones.push_back(main_bone(triangle, mesh.weights, skin));
+    map.bones.push_back(main_bone(mesh.triangles[ref.triangle], mesh.weights, skin));
   }
   std::erase_if(maps, [](const auto& map) { return map.triangle_old_from_new.empty(); });
-  for (DetachedPiece::OfMesh& map : maps) sort_and_unite(map.vertex_old_from_new);
   return maps;
+}
+
+IndexSet vertices_of(const std::vector<Index>& triangles, const Mesh& mesh) {
+  IndexSet vertices(mesh.vertex_count());
+  for (const Index triangle : triangles)
+    for (const Index vertex : mesh.triangles[triangle]) vertices.insert(vertex);
+  return vertices;
 }
 
 }  // namespace
 
 PieceMeshes copy_meshes(const std::vector<Index>& faces, const SurfaceEditor& editor) {
   PieceMeshes piece;
-  piece.maps = make_maps(faces, editor);
+  piece.maps = make_triangle_maps(faces, editor);
   for (const DetachedPiece::OfMesh& map : piece.maps)
     piece.skins.push_back(editor.character().meshes[map.mesh].skin);
   sort_and_unite(piece.skins);
-  for (const DetachedPiece::OfMesh& map : piece.maps) {
+  for (DetachedPiece::OfMesh& map : piece.maps) {
     const Mesh& from = editor.character().meshes[map.mesh];
     Mesh& mesh = piece.meshes.emplace_back();
     mesh.name = from.name;
     mesh.skin = place_in(piece.skins, from.skin);
     mesh.first_morph_weight = from.first_morph_weight;
+    IndexSet vertices = vertices_of(map.triangle_old_from_new, from);
+    map.vertex_old_from_new = vertices.list();
     copy_vertices(from, map.vertex_old_from_new, mesh);
-    copy_triangles(from, map, mesh);
+    copy_triangles(from, map.triangle_old_from_new, vertices, mesh);
   }
   return piece;
 }

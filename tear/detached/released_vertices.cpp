@@ -1,43 +1,49 @@
 #include "tear/detached/released_vertices.h"
 
-#include <algorithm>
+#include "core/internal/index_set.h"
 
 namespace sunder::tear {
 namespace {
 
-/// Faces of other pieces may use a vertex of the source that several fans share, so those stay.
-void add(Index mesh, const Triangle& triangle, const Surface& surface, VerticesOfMeshes& vertices) {
-  const auto& is_shared = surface.is_shared_vertex[mesh];
-  for (const Index vertex : triangle)
-    if (vertex >= is_shared.size() || !is_shared[vertex]) vertices[mesh].push_back(vertex);
-}
-
-void sort_and_unite_each(VerticesOfMeshes& vertices) {
-  for (std::vector<Index>& of_mesh : vertices) {
-    std::sort(of_mesh.begin(), of_mesh.end());
-    of_mesh.erase(std::unique(of_mesh.begin(), of_mesh.end()), of_mesh.end());
+/// Collects vertices of triangles, per mesh.
+class Released {
+ public:
+  explicit Released(const SurfaceEditor& editor) : surface_(editor.surface()) {
+    for (const Mesh& mesh : editor.character().meshes) sets_.emplace_back(mesh.vertex_count());
   }
-}
+  /// Faces of other pieces may use a vertex of the source that several fans share, so those stay.
+  void add(Index mesh, const Triangle& triangle) {
+    const auto& is_shared = surface_.is_shared_vertex[mesh];
+    for (const Index vertex : triangle)
+      if (vertex >= is_shared.size() || !is_shared[vertex]) sets_[mesh].insert(vertex);
+  }
+  [[nodiscard]] VerticesOfMeshes list() {
+    VerticesOfMeshes vertices;
+    for (IndexSet& set : sets_) vertices.push_back(set.list());
+    return vertices;
+  }
+
+ private:
+  const Surface& surface_;
+  std::vector<IndexSet> sets_;
+};
 
 }  // namespace
 
 VerticesOfMeshes released_vertices(const EditLog::Mark& begin, const SurfaceEditor& editor) {
-  VerticesOfMeshes vertices(editor.character().meshes.size());
+  Released released(editor);
   editor.log.for_each_first_change(begin, [&](const TriangleChange& before) {
-    add(editor.surface().triangle(before.triangle).mesh, before.vertices, editor.surface(),
-        vertices);
+    released.add(editor.surface().triangle(before.triangle).mesh, before.vertices);
   });
-  sort_and_unite_each(vertices);
-  return vertices;
+  return released.list();
 }
 
 VerticesOfMeshes released_vertices(const SurfaceEditor::Redo& redo, const SurfaceEditor& editor) {
-  VerticesOfMeshes vertices(editor.character().meshes.size());
+  Released released(editor);
   for (const TriangleChange& changed : redo.changed)
-    add(editor.surface().triangle(changed.triangle).mesh,
-        editor.connectivity.vertices_of(changed.triangle), editor.surface(), vertices);
-  sort_and_unite_each(vertices);
-  return vertices;
+    released.add(editor.surface().triangle(changed.triangle).mesh,
+                 editor.connectivity.vertices_of(changed.triangle));
+  return released.list();
 }
 
 void put_released(VerticesOfMeshes& vertices, ChangeRecord& change) noexcept {
