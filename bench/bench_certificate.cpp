@@ -136,7 +136,7 @@ double quantile(std::vector<double> values, double part) {
 }
 
 void print_line(const Shape& shape, Rows rows, double degrees, const Ratios& ratios) {
-  std::printf("| %s | %s | %.0f° |", shape.name, rows == Rows::edge ? "edge" : "weights", degrees);
+  std::printf("| %s, %s, %.0f° |", shape.name, rows == Rows::edge ? "edge" : "weights", degrees);
   for (const auto* values : {&ratios.coarse, &ratios.refined})
     std::printf(" %.3f, %.3f, %.3f; %.3f |", quantile(*values, 0.25), quantile(*values, 0.5),
                 quantile(*values, 0.75), quantile(*values, 1));
@@ -153,8 +153,8 @@ int main(int argc, char** argv) {
                                      {"fork of 3 balls", false, {0, 0, 1, 1}},
                                      {"chain of 4 hinges", true, {0, 0, 1, 2, 3}}};
   std::printf(
-      "| joints | points | angle | coarse: quartiles; largest | refined | least found | "
-      "at most | unfinished | broken |\n|---|---|---|---|---|---|---|---|---|\n");
+      "| joints, points, angle | coarse | refined | found | proved | unfinished | broken |\n"
+      "|---|---|---|---|---|---|---|\n");
   int broken = 0;
   for (const Shape& shape : shapes)
     for (const Rows rows : {Rows::weights, Rows::edge})

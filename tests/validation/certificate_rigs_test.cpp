@@ -153,19 +153,25 @@ int expect_close(const std::filesystem::path& file) {
     const Bracket closed = bracket_of(rig, limits, 0), refined = bracket_of(rig, limits, 64);
     if (refined.points == 0) continue;
     ++certified;
-    const std::string name = degrees > 0 ? std::to_string(static_cast<int>(degrees)) : "clips";
-    std::printf(
-        "%-16s %-5s %2zu points: found / certified %.3f (least %.3f), coarse %.3f; "
-        "random, found, certified: %.3f %.3f %.3f %% of the diagonal\n",
-        file.stem().c_str(), name.c_str(), refined.points, refined.median, refined.least,
-        closed.median, 100 * refined.random / rig.diagonal, 100 * refined.found / rig.diagonal,
-        100 * refined.certified / rig.diagonal);
+    const std::string name =
+        degrees > 0 ? std::to_string(static_cast<int>(degrees)) + "°" : "clips";
+    std::printf("| %s, %s | %.2f (%.2f) | %.2f | %.3f | %.3f | %.3f |\n", file.stem().c_str(),
+                name.c_str(), refined.median, refined.least, closed.median,
+                100 * refined.random / rig.diagonal, 100 * refined.found / rig.diagonal,
+                100 * refined.certified / rig.diagonal);
     EXPECT_GE(refined.median, 0.85) << file << ", " << name;
   }
   return certified;
 }
 
+void print_head() {
+  std::printf(
+      "| rig, limits | found / certified | coarse | random, %% of the diagonal | found | certified "
+      "|\n|---|---|---|---|---|---|\n");
+}
+
 TEST(CertificateOfRigs, is_reached_on_our_own) {
+  print_head();
   int certified = 0;
   for (const auto& file : own_rigs()) certified += expect_close(file);
   EXPECT_GT(certified, 10);
@@ -173,6 +179,7 @@ TEST(CertificateOfRigs, is_reached_on_our_own) {
 
 TEST(CertificateOfRigs, is_reached_on_shared_ones) {
   SUNDER_SKIP_WITHOUT_SHARED_MODELS();
+  print_head();
   for (const char* const name :
        {"fox.glb", "cactoro.glb", "godot_hand_r.gltf", "webxr_hand_right.glb", "mannequiny.glb"})
     EXPECT_GT(expect_close(test::shared_models() / "rigged" / name), 0) << name;
@@ -206,6 +213,9 @@ TEST(CertificateOfRigs, holds_in_every_clip) {
 }
 
 TEST(CertificateOfRigs, takes_little_time) {
+  std::printf(
+      "| rig | vertices | changed by the cut | ns per vertex | ns per changed vertex |\n"
+      "|---|---|---|---|---|\n");
   for (const auto& file : test::rigged_gltf_models()) {
     const CutRig rig = load_cut(file, 2);
     const auto tree = JointTree::create(rig.character.skeleton, rig.bind, limits_of(rig, 180));
@@ -222,8 +232,8 @@ TEST(CertificateOfRigs, takes_little_time) {
     for (std::size_t i = 0; i + 1 < rig.rows.first.size(); ++i)
       if (rig.rows.first[i] != rig.rows.first[i + 1]) ++changed;
     if (changed == 0) continue;
-    std::printf("%-24s %6.0f points, %6.0f changed: %.0f ns each, %.0f per changed one\n",
-                file.stem().c_str(), points, changed, 1e9 * best / points, 1e9 * best / changed);
+    std::printf("| %s | %.0f | %.0f | %.0f | %.0f |\n", file.stem().c_str(), points, changed,
+                1e9 * best / points, 1e9 * best / changed);
   }
 }
 
