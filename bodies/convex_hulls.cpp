@@ -2,6 +2,8 @@
 #include <sunder/skinning/deform.h>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <utility>
 
 #include "bodies/hull_of_points.h"
@@ -118,17 +120,27 @@ std::uint32_t main_bone(const Triangle& triangle, const SkinWeights& weights, co
         if (influence.slot == slot) sum += influence.weight;
     return sum;
   };
-  std::uint32_t most = kNone;
-  float most_weight = 0;
+  Influence most{kNone, 0.0f};
+  const auto compare = [&](const Influence& sum) {
+    if (sum.weight > most.weight || (sum.weight == most.weight && sum.slot < most.slot)) most = sum;
+  };
+  constexpr std::size_t kMostSums = 16;  // more bones are summed one by one
+  std::array<Influence, kMostSums> sums;
+  std::size_t count = 0;
   for (const std::uint32_t vertex : triangle)
     for (const Influence& influence : weights.of(vertex)) {
-      if (influence.slot == most) continue;
-      const float weight = sum_of(influence.slot);
-      if (weight < most_weight || (weight == most_weight && influence.slot > most)) continue;
-      most = influence.slot;
-      most_weight = weight;
+      const auto end = sums.begin() + static_cast<std::ptrdiff_t>(count);
+      const auto known = std::find_if(
+          sums.begin(), end, [&](const Influence& sum) { return sum.slot == influence.slot; });
+      if (known != end)
+        known->weight += influence.weight;
+      else if (count < kMostSums)
+        sums[count++] = influence;
+      else
+        compare({influence.slot, sum_of(influence.slot)});
     }
-  return skin.bones[most];
+  for (std::size_t i = 0; i < count; ++i) compare(sums[i]);
+  return skin.bones[most.slot];
 }
 
 }  // namespace sunder

@@ -77,10 +77,7 @@ std::vector<Index> Structure::members_of(Index particle) const {
   for_each_candidate(particle, [&](Index point) {
     if (points.find(point, particle) != nullptr) found.push_back(point);
   });
-  // Those of the decomposition come first, and ascend.
-  const auto joined = std::is_sorted_until(found.begin(), found.end());
-  std::sort(joined, found.end());
-  std::inplace_merge(found.begin(), joined, found.end());
+  std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
 }
