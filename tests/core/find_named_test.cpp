@@ -10,7 +10,7 @@ using testing::HasSubstr;
 
 Character with_clips(const std::vector<std::string>& names) {
   Character character;
-  for (const std::string& name : names) character.clips.push_back({.name = name});
+  for (const std::string& name : names) character.clips.emplace_back().name = name;
   return character;
 }
 

@@ -11,7 +11,7 @@ namespace sunder {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity(),
-                 kNan = std::numeric_limits<double>::quiet_NaN();
+                 kNotANumber = std::numeric_limits<double>::quiet_NaN();
 
 TEST(NumberRange, names_the_field_the_value_and_the_range) {
   const NumberRange range = {.field = "depth", .least = 0, .most = 5, .unit = " m"};
@@ -27,7 +27,7 @@ TEST(NumberRange, holds_its_ends_and_nothing_that_is_not_finite) {
   for (const double inside : {-2.0, 0.0, 3.0}) EXPECT_TRUE(range.check(inside)) << inside;
   for (const double outside : {-2.0001, 3.0001, 1e300, -1e300})
     EXPECT_EQ(range.check(outside).code(), StatusCode::invalid_argument) << outside;
-  for (const double odd : {kNan, kInfinity, -kInfinity})
+  for (const double odd : {kNotANumber, kInfinity, -kInfinity})
     EXPECT_EQ(range.check(odd).code(), StatusCode::non_finite_value) << odd;
   const NumberRange open = {.field = "x", .least = -2, .most = 3, .is_above_least = true};
   EXPECT_FALSE(open.check(-2));
@@ -43,7 +43,7 @@ TEST(NumberRange, of_degrees_forgives_the_way_through_radians) {
   }
   EXPECT_EQ(range.check_degrees(81 * std::numbers::pi / 180).text(),
             "tilt is 81 degrees; it must be from -80 to 80 degrees");
-  EXPECT_FALSE(range.check_degrees(kNan));
+  EXPECT_FALSE(range.check_degrees(kNotANumber));
 }
 
 }  // namespace
