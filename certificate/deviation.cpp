@@ -151,7 +151,7 @@ Result<DeviationCertificate> certify_deviation(const JointTree& tree,
 }
 
 std::vector<std::uint32_t> worst_points(const DeviationCertificate& certificate,
-                                        std::size_t count) {
+                                        std::size_t count) try {
   const std::vector<double>& bound = certificate.bound;
   std::vector<std::uint32_t> points;
   for (std::uint32_t point = 0; point < bound.size(); ++point)
@@ -162,6 +162,8 @@ std::vector<std::uint32_t> worst_points(const DeviationCertificate& certificate,
   });
   points.erase(middle, points.end());
   return points;
+} catch (const std::bad_alloc&) {
+  return {};
 }
 
 }  // namespace sunder

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 
 namespace sunder {
 namespace {
@@ -33,11 +34,13 @@ std::uint32_t find_value(const Robot& robot, std::string_view name) {
   return index_of(robot.values, name);
 }
 
-std::vector<double> rest_values(const Robot& robot) {
+std::vector<double> rest_values(const Robot& robot) try {
   std::vector<double> values;
   values.reserve(robot.values.size());
   for (const RobotValue& value : robot.values) values.push_back(value.rest);
   return values;
+} catch (const std::bad_alloc&) {
+  return {};
 }
 
 Result<std::uint32_t> clamp_to_limits(const Robot& robot, std::span<double> values) {

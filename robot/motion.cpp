@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <utility>
 
 #include "core/internal/nearest_names.h"
@@ -113,6 +114,7 @@ Result<RobotMotion> RobotMotion::create(const Robot& robot, const RobotTrajector
     auto state =
         std::make_shared<State>(State{std::move(*kinematics), trajectory.times, {}, 0, {}});
     const std::vector<double> rest = rest_values(robot);
+    if (rest.size() != robot.values.size()) throw std::bad_alloc();
     state->value_count = static_cast<std::uint32_t>(rest.size());
     for (std::size_t i = 0; i < trajectory.times.size(); ++i) {
       std::vector<double> row = rest;

@@ -50,7 +50,9 @@ class WithoutPipeSignal {
 bool is_of_system(const fs::path& folder) {
   std::error_code error;
   const fs::path whole = fs::canonical(folder, error);
-  return !error && (whole == "/dev" || whole.string().starts_with("/proc/"));
+  const std::string name = whole.string() + '/';
+  return !error && ((name.starts_with("/dev/") && !name.starts_with("/dev/shm/")) ||
+                    name.starts_with("/proc/"));
 }
 
 std::optional<int> own_descriptor(const fs::path& file) {

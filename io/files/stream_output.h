@@ -13,7 +13,8 @@ namespace sunder::files {
 /// /proc/self/fd/3.
 [[nodiscard]] std::optional<int> own_descriptor(const std::filesystem::path& file);
 
-/// Whether a folder is /dev, or in /proc, where links are those of the system.
+/// Whether a folder is in /dev or /proc, where links are those of the system: /dev/mapper/root. The
+/// files in /dev/shm are those of users.
 [[nodiscard]] bool is_of_system(const std::filesystem::path& folder);
 
 /// Opens a device or a FIFO for writing; a FIFO only if somebody reads it. With errno.

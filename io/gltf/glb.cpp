@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <string_view>
 
 #include "io/gltf/image_header.h"
@@ -90,27 +91,35 @@ std::span<const std::byte> GlbDraft::bytes_of_view(const Json& index) const {
 
 void GlbDraft::embed_images() {
   std::uint64_t bytes_left = source_.maximum_bytes;
+  std::map<std::string, EmbeddedImage> known;
   if (!json.contains("images") || !json["images"].is_array()) return;
-  for (Json& image : json["images"])
-    if (image.is_object() && image.contains("uri") && image["uri"].is_string())
-      embed_image(image, bytes_left);
+  for (Json& image : json["images"]) {
+    if (!image.is_object() || !image.contains("uri") || !image["uri"].is_string()) continue;
+    const std::string uri = image["uri"].get<std::string>();
+    if (is_data_uri(uri)) continue;
+    const auto [found, is_new] = known.try_emplace(uri);
+    if (is_new) found->second = embed_image(uri, bytes_left);
+    if (found->second.type == nullptr) continue;  // The reference stays as in the source.
+    image.erase("uri");
+    image["mimeType"] = found->second.type;
+    image["bufferView"] = found->second.view;
+  }
 }
 
-void GlbDraft::embed_image(Json& image, std::uint64_t& bytes_left) {
-  const std::string uri = image["uri"].get<std::string>();
-  if (is_data_uri(uri)) return;
+/// Whatever is read counts, also what is no image: an entry of some bytes can name a large file.
+GlbDraft::EmbeddedImage GlbDraft::embed_image(const std::string& uri, std::uint64_t& bytes_left) {
+  if (bytes_left == 0) return {};
   std::vector<std::byte> bytes;
   try {
     bytes = source_.read_side_file(uri, "image", bytes_left);
-  } catch (const Refusal&) {
-    return;  // The reference stays as in the source.
+  } catch (const Refusal& refusal) {
+    if (refusal.status.code() == StatusCode::limit_exceeded) bytes_left = 0;
+    return {};
   }
-  const char* const type = image_type(bytes);
-  if (type == nullptr || !is_image_header_sound(bytes)) return;
   bytes_left -= bytes.size();
-  image.erase("uri");
-  image["mimeType"] = type;
-  image["bufferView"] = add_view(bytes, ViewTarget::none);
+  const char* const type = image_type(bytes);
+  if (type == nullptr || !is_image_header_sound(bytes)) return {};
+  return {type, add_view(bytes, ViewTarget::none)};
 }
 
 void GlbDraft::remove_bytes(std::span<const Gap> gaps) {

@@ -52,7 +52,12 @@ class GlbDraft {
  private:
   std::uint64_t append(std::span<const std::byte> bytes);
   void merge_buffers();
-  void embed_image(Json& image, std::uint64_t& bytes_left);
+  /// A view with an image; without a type: none.
+  struct EmbeddedImage {
+    const char* type = nullptr;
+    std::uint32_t view = 0;
+  };
+  EmbeddedImage embed_image(const std::string& uri, std::uint64_t& bytes_left);
 
   const SourceDocument& source_;
   std::vector<std::byte> binary_;

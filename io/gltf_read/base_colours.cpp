@@ -145,12 +145,14 @@ class Reader {
     const auto [known, is_new] = numbers_.try_emplace(place_of(image), kNone);
     if (!is_new) return known->second;
     std::optional<std::vector<std::byte>> bytes = bytes_of(image);
-    const char* const type = bytes ? gltf::image_type(*bytes) : nullptr;
-    if (type == nullptr || std::string(type) == "image/ktx2" || bytes->size() > bytes_left_) {
+    // What is no image counts too: it was read, or copied.
+    const bool fits = bytes && bytes->size() <= bytes_left_;
+    if (fits) bytes_left_ -= bytes->size();
+    const char* const type = fits ? gltf::image_type(*bytes) : nullptr;
+    if (type == nullptr || std::string(type) == "image/ktx2") {
       ++found_.left_out;
       return kNone;
     }
-    bytes_left_ -= bytes->size();
     known->second = static_cast<std::uint32_t>(found_.images.size());
     found_.images.push_back({type, std::move(*bytes)});
     return known->second;
@@ -170,6 +172,7 @@ class Reader {
       const Json& view = member(image, "bufferView");
       if (entry(source_.json, "bufferViews", view).is_object()) {
         const auto bytes = gltf::bytes_of_view(source_, view.get<std::uint32_t>());
+        if (bytes.size() > bytes_left_) return {};
         return std::vector<std::byte>(bytes.begin(), bytes.end());
       }
       const Json& uri = member(image, "uri");

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <new>
+#include <utility>
 
 #include "core/internal/or_throw.h"
 #include "core/internal/ordered.h"
@@ -57,12 +59,13 @@ void RefitCertificate::add(const AnimationPoint& exact, std::span<const Influenc
 }
 
 std::vector<double> RefitCertificate::take_bounds() {
-  const std::size_t count = rows_.first.size() - 1;
-  std::vector<double> bounds(count, std::numeric_limits<double>::infinity());
-  if (tree_)
-    if (auto certificate = certify_deviation(*tree_, rows_)) bounds = std::move(certificate->bound);
-  rows_ = {};
-  return bounds;
+  const SkinDifferences rows = std::exchange(rows_, {});
+  std::vector<double> bounds(rows.first.size() - 1, std::numeric_limits<double>::infinity());
+  if (!tree_) return bounds;
+  auto certificate = certify_deviation(*tree_, rows);
+  if (certificate.error().code() == StatusCode::limit_exceeded) throw std::bad_alloc();
+  if (!certificate) return bounds;
+  return std::move(certificate->bound);
 }
 
 }  // namespace sunder::tear

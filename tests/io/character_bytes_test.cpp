@@ -2,6 +2,7 @@
 
 #include <sunder/io/character_file.h>
 
+#include <span>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -86,6 +87,67 @@ TEST(CharacterBytes, nothing_is_read_without_a_resolver) {
   few.maximum_bytes = glb.size() - 1;
   EXPECT_EQ(load_glb(glb, few).error().code(), StatusCode::limit_exceeded);
   EXPECT_EQ(load_glb({}).error().code(), StatusCode::malformed_file);
+}
+
+/// Gives the same bytes for every name, and counts them.
+class OneFile : public FileResolver {
+ public:
+  explicit OneFile(std::string content) : content_(std::move(content)) {}
+
+  [[nodiscard]] Result<std::vector<std::byte>> read(std::string_view /*uri*/) const override {
+    bytes_read += content_.size();
+    const auto bytes = std::as_bytes(std::span<const char>(content_));
+    return std::vector<std::byte>(bytes.begin(), bytes.end());
+  }
+
+  mutable std::uint64_t bytes_read = 0;
+
+ private:
+  std::string content_;
+};
+
+/// Saves a strip with these images, whose bytes are the same file.
+std::vector<std::byte> saved_with_images(const Json& images, const std::shared_ptr<OneFile>& file,
+                                         std::uint64_t maximum_bytes) {
+  GltfBuilder builder = skinned_strip();
+  builder.json["images"] = images;
+  for (std::size_t i = 0; i < images.size(); ++i)
+    builder.json["textures"].push_back({{"source", i}});
+  ReadOptions options;
+  options.maximum_bytes = maximum_bytes;
+  const auto loaded = load_glb(builder.glb(), options, file);
+  EXPECT_TRUE(loaded) << loaded.error().text();
+  if (!loaded) return {};
+  file->bytes_read = 0;
+  Character changed = *loaded->character;
+  changed.meshes[0].positions[0].x() += 0.001f;
+  auto written = save_glb(changed, *loaded);
+  EXPECT_TRUE(written) << written.error().text();
+  return written ? std::move(*written) : std::vector<std::byte>();
+}
+
+/// A few bytes can name a large file, in many spellings.
+TEST(CharacterBytes, files_that_are_no_images_are_not_read_without_end) {
+  constexpr std::uint64_t kLimit = 100'000;
+  const auto file = std::make_shared<OneFile>(std::string(30'000, 'x'));
+  Json images = Json::array();
+  for (std::size_t i = 0; i < 50; ++i) images.push_back({{"uri", std::string(i + 1, '.') + "/x"}});
+  (void)saved_with_images(images, file, kLimit);
+  EXPECT_EQ(file->bytes_read, 120'000u) << "up to the limit";
+  for (Json& image : images) image["uri"] = "x";
+  (void)saved_with_images(images, file, kLimit);
+  EXPECT_EQ(file->bytes_read, 30'000u) << "one file is read once";
+}
+
+TEST(CharacterBytes, an_image_that_many_entries_name_is_embedded_once) {
+  const auto file = std::make_shared<OneFile>("RIFFsizeWEBP" + std::string(10'000, 'x'));
+  Json images = Json::array();
+  for (int i = 0; i < 50; ++i) images.push_back({{"uri", "x.webp"}});
+  const std::vector<std::byte> written = saved_with_images(images, file, 1'000'000);
+  EXPECT_EQ(file->bytes_read, 10'012u);
+  EXPECT_LT(written.size(), 50'000u);
+  const auto again = load_glb(written);
+  ASSERT_TRUE(again) << again.error().text();
 }
 
 TEST(CharacterBytes, a_file_with_a_long_json_is_read) {

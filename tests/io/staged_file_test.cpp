@@ -217,5 +217,13 @@ TEST_F(StagedFiles, what_was_exchanged_before_the_commit_is_not_overwritten) {
   EXPECT_TRUE(S_ISFIFO(mode_of(path("out"))));
 }
 
+/// Links in folders of /dev lead to disks and terminals.
+TEST(StreamOutput, folders_of_the_system_are_known) {
+  for (const char* const folder : {"/dev", "/dev/", "/dev/pts", "/proc", "/proc/self"})
+    EXPECT_TRUE(files::is_of_system(folder)) << folder;
+  for (const char* const folder : {"/", "/tmp", "/dev/shm", "/device"})
+    EXPECT_FALSE(files::is_of_system(folder)) << folder;
+}
+
 }  // namespace
 }  // namespace sunder

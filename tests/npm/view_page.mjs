@@ -241,7 +241,13 @@ async function testPlacing() {
   await testPosesOfTools(page);
   await testUndo(page);
   await testBones(page);
+  facts.shown_error = await page.evaluate(() => {
+    globalThis.showError(sunder.data.source.title + sunder.data.source.bones.join(''));
+    const error = document.getElementById('error');
+    return { text: error.textContent, parts: error.children.length };
+  });
   facts.unseen = await unseen(page);
+  await page.$eval('#error', (error) => { error.hidden = true; });
   facts.runs_other_scripts = await runsOtherScripts(page, facts);
   facts.changed_by_colours = await changedBy(page, () => page.keyboard.press('c'));
   facts.nameless = await nameless(page);

@@ -255,6 +255,20 @@ TEST(RobotCheck, names_the_first_fault) {
             StatusCode::non_finite_value);
 }
 
+/// No exception leaves the API.
+TEST(RobotLimits, there_are_no_rest_values_without_memory) {
+  if (!FailingAllocations::are_possible()) GTEST_SKIP();
+  Robot robot;
+  robot.values.resize(2);
+  std::vector<double> values;
+  EXPECT_NO_THROW({
+    const FailingAllocations failing(0);
+    values = rest_values(robot);
+  });
+  EXPECT_TRUE(values.empty());
+  EXPECT_EQ(rest_values(robot).size(), 2u);
+}
+
 TEST(PlanarAxes, are_right_handed_with_any_normal) {
   Random random(4);
   for (int i = 0; i < 1000; ++i) {

@@ -261,6 +261,8 @@ void ViewPage::names_stay_text() {
   EXPECT_EQ(facts_["title"], kHostileFile);
   EXPECT_EQ(facts_["injected"], json({nullptr, 0}));
   EXPECT_EQ(facts_["runs_other_scripts"], false) << "the policy names the page's own scripts alone";
+  EXPECT_EQ(facts_["shown_error"]["parts"], 0) << "a message of an error is no HTML";
+  EXPECT_TRUE(facts_["shown_error"]["text"].get<std::string>().starts_with(kHostileFile));
   EXPECT_EQ(facts_["unseen"], 0) << "control characters of names are shown as escapes";
 }
 

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/machine/allocation_count.h"
 #include "support/machine/stress.h"
 #include "validation/random_rig.h"
 
@@ -497,6 +498,20 @@ TEST(DeviationBound, has_the_same_bits_at_any_number_of_threads) {
   EXPECT_TRUE(std::is_sorted(worst.begin(), worst.end(), [&](std::uint32_t a, std::uint32_t b) {
     return alone->bound[a] > alone->bound[b];
   }));
+}
+
+/// No exception leaves the API.
+TEST(DeviationBound, worst_points_are_none_without_memory) {
+  if (!test::FailingAllocations::are_possible()) GTEST_SKIP();
+  DeviationCertificate certificate;
+  certificate.bound = {0.5, 0.25, 1.0};
+  std::vector<std::uint32_t> worst;
+  EXPECT_NO_THROW({
+    const test::FailingAllocations failing(0);
+    worst = worst_points(certificate, 2);
+  });
+  EXPECT_TRUE(worst.empty());
+  EXPECT_EQ(worst_points(certificate, 2), (std::vector<std::uint32_t>{2, 0}));
 }
 
 TEST(DeviationBound, faults_of_the_input_are_named) {
