@@ -69,23 +69,23 @@ TEST_F(RobotTear, an_arm_that_stands_elsewhere_misses) {
 
 /// The miss says by which way the blade passed; moved by it and a little more, it tears.
 TEST_F(RobotTear, a_miss_says_which_way_to_move_the_robot) {
-  for (const Vec3d place : {Vec3d(0, 0, 1.6), Vec3d(1.5, 0, 0.95), Vec3d(0, 3, 0.95)}) {
+  for (const Vec3d& place : {Vec3d(0, 0, 1.6), Vec3d(1.5, 0, 0.95), Vec3d(0, 3, 0.95)}) {
     const auto tear_at = [&](const Vec3d& at) {
       std::string text;
       for (int k = 0; k < 3; ++k) text += std::to_string(at[k]) + ",";
       return tear({"--robot-place", text + "0,90,0", "--pose", "Sway@0.2", "--clip-speed", "1",
-                   "--dry-run", "--report", path("miss.json"), "--force"});
+                   "--dry-run", "--report", "-"});
     };
     const CommandResult missed = tear_at(place);
     EXPECT_EQ(missed.exit_code, 1) << missed.err;
     EXPECT_THAT(missed.err, HasSubstr(" to --robot-place"));
     EXPECT_THAT(missed.err, HasSubstr(" s of the motion"));
-    const json miss = read_json("miss.json")["operations"][0]["miss"];
+    const json miss = json::parse(missed.out)["operations"][0]["miss"];
     Vec3d way;
     for (int k = 0; k < 3; ++k) way[k] = miss["way"][static_cast<std::size_t>(k)];
     EXPECT_NEAR(way.norm(), miss["distance"].get<double>(), 1e-6);
     const CommandResult moved = tear_at(place + way + 0.04 * way.normalized());
-    EXPECT_EQ(read_json("miss.json")["operations"][0]["status"], "torn") << moved.err;
+    EXPECT_EQ(json::parse(moved.out)["operations"][0]["status"], "torn") << moved.err;
   }
 }
 
@@ -113,7 +113,8 @@ TEST_F(RobotTear, numbers_out_of_range_are_refused_with_the_range) {
     EXPECT_THAT(err("--clip-speed", value), HasSubstr("it must be from 0 to 1e+06"));
   EXPECT_THAT(err("--spacing", "3kg"), HasSubstr("'3kg' is no number; expected one from 1e-09"));
   for (const char* const value : {"nan,0,0", "inf,0,0", "1e300,0,0", "0,0"})
-    EXPECT_THAT(err("--robot-place", value), HasSubstr("expected x,y,z[,roll,pitch,yaw]"));
+    EXPECT_THAT(tear({"--robot-place", value, "-o", path("no.glb")}).err,
+                HasSubstr("expected x,y,z[,roll,pitch,yaw]"));
   EXPECT_FALSE(exists("no.glb"));
 }
 

@@ -117,8 +117,11 @@ TEST_F(TransferCommand, the_clips_of_the_source_are_offered_and_written_on_reque
   EXPECT_EQ(moving.clips[0].name, truth.clips[0].name);
   // Every vertex goes where the source's goes.
   for (const double time : {0.0, 0.7, 1.4}) {
-    const ModelPose pose = *make_pose(moving, ClipPose{0u, time}),
-                    of_truth = *make_pose(truth, ClipPose{0u, time});
+    ModelPose pose = *make_pose(moving, ClipPose{0u, time}),
+              of_truth = *make_pose(truth, ClipPose{0u, time});
+    // Morph targets are the target's own.
+    pose.morph_weights = moving.rest_morph_weights;
+    of_truth.morph_weights = truth.rest_morph_weights;
     for (Index m = 0; m < moving.meshes.size(); ++m) {
       const auto same =
           std::ranges::find(truth.meshes, moving.meshes[m].vertex_count(), &Mesh::vertex_count);

@@ -17,9 +17,9 @@ CLI::Option* takes_count(CLI::Option* option, unsigned least, unsigned most);
 
 // The ranges of limits that verbs share.
 inline constexpr NumberRange kSeconds = {
-    .field = "the value", .least = 0.001, .most = 1e9, .unit = " s"};
+    .field = "the value", .least = 1e-6, .most = 1e9, .unit = " s"};
 inline constexpr NumberRange kMegabytes = {
-    .field = "the value", .least = 0.001, .most = 1e6, .unit = " MB"};
+    .field = "the value", .least = 1e-6, .most = 1e6, .unit = " MB"};
 
 inline constexpr unsigned kMostInfluences = 65'535, kMostVertices = 1'000'000'000;
 
