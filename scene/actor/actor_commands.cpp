@@ -99,10 +99,10 @@ Status ActorCommands::start(const QueuedCommand& queued, const ModelPose& pose,
     if (!operation)
       return Status::failure(StatusCode::invalid_argument, kNone,
                              "commands of strokes, undo and redo do not run in the background");
-    RunningOperation running = {
-        {queued, nullptr, background.swap_time()}, std::move(*operation), {}, {}, false};
-    Status status = start_operation(running, instance, background);
-    if (status) operation_.emplace(std::move(running));
+    auto running = std::make_unique<RunningOperation>(RunningOperation{
+        {queued, nullptr, background.swap_time()}, std::move(*operation), {}, {}, false});
+    Status status = start_operation(*running, instance, background);
+    if (status) operation_ = std::move(running);
     return status;
   } catch (const std::system_error& error) {
     return Status::failure(StatusCode::limit_exceeded, kNone, "cannot start a thread: %s",

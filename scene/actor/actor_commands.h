@@ -70,7 +70,7 @@ class ActorCommands {
   bool finish_refits(CharacterInstance& instance);
 
   std::vector<QueuedCommand> waiting_;
-  std::optional<RunningOperation> operation_;
+  std::unique_ptr<RunningOperation> operation_;  ///< Null: none. Most instances never have one.
   std::vector<RunningRefit> refits_;
   std::vector<CommandResult> results_;
 };
