@@ -5,8 +5,8 @@
 #include <sys/types.h>
 
 #include "io/contained_import/find_helper.h"
-#include "io/files/descriptor.h"
 #include "io/import_messages/socket.h"
+#include "io/internal/descriptor.h"
 
 namespace sunder::contained_import {
 

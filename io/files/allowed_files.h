@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/files/descriptor.h"
+#include "io/internal/descriptor.h"
 
 namespace sunder::files {
 

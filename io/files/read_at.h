@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "io/files/descriptor.h"
+#include "io/internal/descriptor.h"
 
 namespace sunder::files {
 

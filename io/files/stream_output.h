@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-#include "io/files/descriptor.h"
+#include "io/internal/descriptor.h"
 
 namespace sunder::files {
 

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "io/files/descriptor.h"
+#include "io/internal/descriptor.h"
 
 namespace sunder {
 
