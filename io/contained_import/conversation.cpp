@@ -79,6 +79,7 @@ class Server {
     if (request.first > kMostReferenceBytes) return false;
     std::string reference(request.first, '\0');
     if (!succeeded(socket_.receive(std::as_writable_bytes(std::span(reference))))) return false;
+    const std::uint64_t bytes_left = allowed_.bytes_left();
     Result<files::OpenFile> file = files::OpenFile{};
     if (request.kind == RequestKind::open)
       file = allowed_.open(reference);
@@ -89,7 +90,9 @@ class Server {
                         .text_bytes = static_cast<std::uint32_t>(text.size()),
                         .bytes = file ? file->bytes : 0};
     const int descriptor = file ? file->descriptor.value() : -1;
-    if (descriptor >= 0) rules_.file_opened(file->bytes);
+    // Not again for a file that it had before: its limits would grow by each request.
+    if (const std::uint64_t more = bytes_left - allowed_.bytes_left(); more > 0)
+      rules_.file_opened(more);
     return succeeded(socket_.send_value(answer, descriptor)) &&
            succeeded(socket_.send(std::as_bytes(std::span(text))));
   }

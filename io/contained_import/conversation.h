@@ -38,7 +38,7 @@ struct ConversationRules {
   /// The most bytes of the GLB; asked for when the reply begins, and checked before memory is
   /// taken.
   std::function<std::uint64_t()> maximum_reply;
-  /// Is called with the size of each opened file, before it is sent.
+  /// Is called with the size of each opened file, once per file, before it is sent.
   std::function<void(std::uint64_t)> file_opened;
 };
 

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <jpeglib.h>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -218,6 +219,23 @@ TEST(TriangleTree, finds_what_a_search_of_all_triangles_finds) {
       const float beyond = 1.001f * hit.distance;
       EXPECT_GT(tree.first_hit(from, along, 5, beyond).distance, hit.distance);
     }
+  }
+}
+
+/// Embree aborts at such rays; a model with places at 1e12 metres leads to them.
+TEST(TriangleTree, rays_beyond_the_numbers_of_embree_meet_nothing) {
+  const std::vector<TriangleTree::Corners> triangles = {
+      {Vec3f(0, 0, 0), Vec3f(1, 0, 0), Vec3f(0, 1, 0)}};
+  const TriangleTree tree(triangles);
+  const Vec3f from(0.2f, 0.2f, 1), along(0, 0, -1);
+  ASSERT_EQ(tree.first_hit(from, along).triangle, 0u);
+  for (const float odd :
+       {1e30f, std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()}) {
+    const Vec3f beyond(0, 0, odd);
+    EXPECT_EQ(tree.first_hit(beyond, along).triangle, kNone);
+    EXPECT_EQ(tree.first_hit(from, beyond).triangle, kNone);
+    EXPECT_FALSE(tree.is_blocked(beyond, along));
+    EXPECT_FALSE(tree.is_blocked(from, beyond));
   }
 }
 

@@ -46,6 +46,12 @@ TEST_F(RepairsCommand, tear_warns_of_repairs) {
   EXPECT_EQ(tear("clean.glb").exit_code, 0);
 }
 
+TEST_F(RepairsCommand, demo_warns_of_repairs) {
+  const CommandResult result =
+      run_sunder({"demo", path("repaired.glb"), "--no-pictures", "-o", path("demo")});
+  EXPECT_THAT(result.err, HasSubstr("warning: " + path("repaired.glb") + ": repaired: mesh 0"));
+}
+
 TEST_F(RepairsCommand, tear_ends_with_findings_if_a_part_was_dropped) {
   const CommandResult result = tear("dropped.glb");
   EXPECT_EQ(result.exit_code, 1) << result.err;

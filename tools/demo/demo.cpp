@@ -14,6 +14,7 @@
 #include "tools/messages/progress_bar.h"
 #include "tools/messages/text_file.h"
 #include "tools/messages/written_file.h"
+#include "tools/model/load_notes.h"
 #include "tools/model/model_json.h"
 #include "tools/model/posed_model.h"
 #include "tools/tear/report.h"
@@ -33,6 +34,7 @@ Result<DemoModel> get_model(const DemoRequest& request) {
   if (request.model) {
     Result<LoadedCharacter> loaded = load_character(*request.model);
     if (!loaded) return loaded.error();
+    warn_of_repairs(request.model->string(), loaded->report, Messages(Verbosity::normal));
     return DemoModel{*loaded, false};
   }
   LoadedCharacter embedded;

@@ -35,9 +35,10 @@ Result<ModelLooks> ModelLooks::create(const SourceDocument* source, std::uint64_
   std::uint64_t pixels_left = most_pixels;
   looks.most_pixels_ = most_pixels;
   for (const BaseColours::Image& image : colours->images) {
-    Result<Image> decoded = decode_image(image.bytes, pixels_left);
+    std::uint64_t pixels = 0;  // Broken images count too: they take as much time.
+    Result<Image> decoded = decode_image(image.bytes, pixels_left, &pixels);
     looks.images_.push_back(decoded ? std::move(*decoded) : Image());
-    pixels_left -= looks.images_.back().rgba.size() / 4;
+    pixels_left -= pixels;
   }
   for (BaseColour& colour : colours->materials) {
     bool lacks_image = colour.lacks_image;

@@ -16,7 +16,8 @@ Status too_large(std::uint64_t width, std::uint64_t height, std::uint64_t most_p
       static_cast<unsigned long long>(most_pixels));
 }
 
-Result<Image> decode_png(std::span<const std::byte> file, std::uint64_t most_pixels) {
+Result<Image> decode_png(std::span<const std::byte> file, std::uint64_t most_pixels,
+                         std::uint64_t& begun) {
   png_image png = {};
   png.version = PNG_IMAGE_VERSION;
   const auto fail = [&png] {
@@ -31,6 +32,7 @@ Result<Image> decode_png(std::span<const std::byte> file, std::uint64_t most_pix
     png_image_free(&png);
     return status;
   }
+  begun = std::uint64_t{png.width} * png.height;
   png.format = PNG_FORMAT_RGBA;
   Image image{static_cast<int>(png.width), static_cast<int>(png.height), {}};
   image.rgba.resize(PNG_IMAGE_SIZE(png));
@@ -81,10 +83,12 @@ void read_rows(jpeg_decompress_struct& jpeg, Image& image) {
 }
 
 /// @param most_pixels  that are read.
+/// @param begun  gets the number of pixels that are read.
 /// @param image  outside, so that no object lives in a frame that an error leaves.
 /// @return nothing; the text of an error; "" if it is too large.
 const char* decode_jpeg_into(std::span<const std::byte> file, std::uint64_t most_pixels,
-                             jpeg_decompress_struct& jpeg, JpegErrors& errors, Image& image) {
+                             jpeg_decompress_struct& jpeg, JpegErrors& errors, std::uint64_t& begun,
+                             Image& image) {
   jpeg.err = jpeg_std_error(&errors.manager);
   errors.manager.error_exit = leave;
   errors.manager.output_message = stay_silent;
@@ -97,6 +101,7 @@ const char* decode_jpeg_into(std::span<const std::byte> file, std::uint64_t most
                static_cast<unsigned long>(file.size()));
   (void)jpeg_read_header(&jpeg, TRUE);
   if (std::uint64_t{jpeg.image_width} * jpeg.image_height > most_pixels) return "";
+  begun = std::uint64_t{jpeg.image_width} * jpeg.image_height;
   if (jpeg.jpeg_color_space != JCS_GRAYSCALE) jpeg.out_color_space = JCS_RGB;
   (void)jpeg_start_decompress(&jpeg);
   image.width = static_cast<int>(jpeg.output_width);
@@ -106,11 +111,12 @@ const char* decode_jpeg_into(std::span<const std::byte> file, std::uint64_t most
   return nullptr;
 }
 
-Result<Image> decode_jpeg(std::span<const std::byte> file, std::uint64_t most_pixels) {
+Result<Image> decode_jpeg(std::span<const std::byte> file, std::uint64_t most_pixels,
+                          std::uint64_t& begun) {
   jpeg_decompress_struct jpeg = {};
   JpegErrors errors = {};
   Image image;
-  const char* const error = decode_jpeg_into(file, most_pixels, jpeg, errors, image);
+  const char* const error = decode_jpeg_into(file, most_pixels, jpeg, errors, begun, image);
   Status status;
   if (error != nullptr)
     status = *error == 0
@@ -123,7 +129,11 @@ Result<Image> decode_jpeg(std::span<const std::byte> file, std::uint64_t most_pi
 
 }  // namespace
 
-Result<Image> decode_image(std::span<const std::byte> file, std::uint64_t most_pixels) {
+Result<Image> decode_image(std::span<const std::byte> file, std::uint64_t most_pixels,
+                           std::uint64_t* begun) {
+  std::uint64_t unused = 0;
+  std::uint64_t& pixels = begun == nullptr ? unused : *begun;
+  pixels = 0;
   const auto begins_with = [file](std::initializer_list<unsigned> bytes) {
     if (file.size() < bytes.size()) return false;
     std::size_t i = 0;
@@ -131,8 +141,8 @@ Result<Image> decode_image(std::span<const std::byte> file, std::uint64_t most_p
       if (static_cast<unsigned>(file[i++]) != byte) return false;
     return true;
   };
-  if (begins_with({0x89, 'P', 'N', 'G'})) return decode_png(file, most_pixels);
-  if (begins_with({0xff, 0xd8, 0xff})) return decode_jpeg(file, most_pixels);
+  if (begins_with({0x89, 'P', 'N', 'G'})) return decode_png(file, most_pixels, pixels);
+  if (begins_with({0xff, 0xd8, 0xff})) return decode_jpeg(file, most_pixels, pixels);
   return Status::failure(StatusCode::unsupported_format, kNone, "an image is neither PNG nor JPEG");
 }
 

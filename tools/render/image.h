@@ -21,8 +21,11 @@ inline constexpr std::uint64_t kMostImagePixels = std::uint64_t{1} << 26;
 
 /// Reads a PNG or a JPEG, which is recognised by its first bytes. Its size is known before memory
 /// is taken for its pixels: 4 bytes each.
+/// @param begun  optional: gets the number of pixels for which memory and time were taken, also if
+///               the file turns out to be malformed.
 /// @return unsupported_format: another kind of file; malformed_file; limit_exceeded: more pixels.
 [[nodiscard]] Result<Image> decode_image(std::span<const std::byte> file,
-                                         std::uint64_t most_pixels = kMostImagePixels);
+                                         std::uint64_t most_pixels = kMostImagePixels,
+                                         std::uint64_t* begun = nullptr);
 
 }  // namespace sunder::tools

@@ -96,6 +96,14 @@ RTCRay ray_of(const Vec3f& from, const Vec3f& along, float nearest, float farthe
   return ray;
 }
 
+/// Whether Embree takes the ray: it aborts at numbers beyond its own limit, which a model of a
+/// stranger may have.
+bool is_sound(const Vec3f& from, const Vec3f& along, float nearest, float farthest) {
+  constexpr float kLargest = 1.8e18f;
+  return (from.array().abs() <= kLargest).all() && (along.array().abs() <= kLargest).all() &&
+         nearest <= farthest;
+}
+
 }  // namespace
 
 TriangleTree::TriangleTree(std::span<const Corners> triangles) : TriangleTree(triangles, {}) {}
@@ -107,6 +115,7 @@ TriangleTree::~TriangleTree() = default;
 
 TriangleTree::Hit TriangleTree::first_hit(const Vec3f& from, const Vec3f& along, float farthest,
                                           float nearest) const {
+  if (!is_sound(from, along, nearest, farthest)) return {kNone, farthest};
   RTCRayHit query = {};
   query.ray = ray_of(from, along, nearest, farthest);
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
@@ -118,6 +127,7 @@ TriangleTree::Hit TriangleTree::first_hit(const Vec3f& from, const Vec3f& along,
 }
 
 bool TriangleTree::is_blocked(const Vec3f& from, const Vec3f& along, float farthest) const {
+  if (!is_sound(from, along, 0, farthest)) return false;
   RTCRay ray = ray_of(from, along, 0, farthest);
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);

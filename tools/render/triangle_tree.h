@@ -38,7 +38,8 @@ class TriangleTree {
   TriangleTree(const TriangleTree&) = delete;
   TriangleTree& operator=(const TriangleTree&) = delete;
 
-  /// The first triangle on a ray, from either side, between two distances.
+  /// The first triangle on a ray, from either side, between two distances. None for a ray that is
+  /// not finite, or has a number beyond 1.8e18.
   [[nodiscard]] Hit first_hit(const Vec3f& from, const Vec3f& along, float farthest = kFar,
                               float nearest = 0) const;
   /// Whether anything lies between a place and `farthest` lengths of the direction.

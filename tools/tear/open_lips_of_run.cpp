@@ -85,8 +85,7 @@ ExitCode open_lips_of_run(TearRun& run) {
   const std::vector<Operation> history = value_of(run.model.history());
   Result<Opening> opening = measure_opening(run.loaded.character, history);
   if (!opening)
-    return complain(run.request.model.string() + ": --open", opening.error(),
-                    ExitCode::internal_error);
+    return complain(run.request.model.string() + ": --open", opening.error(), ExitCode::usage);
   run.opening = std::move(*opening);
   if (run.request.flesh.use == FleshOption::Use::none) run.opening->walls = {};
   if (run.opening->widest_gap > 0) {

@@ -158,6 +158,7 @@ struct CertificateOptions {
     const CertificateOptions& options = {}, const ParallelFor& parallel_for = {});
 
 /// The points with the largest bounds that are certified and not 0, largest first, at most `count`.
+/// None if there is no memory.
 [[nodiscard]] SUNDER_API std::vector<std::uint32_t> worst_points(
     const DeviationCertificate& certificate, std::size_t count);
 

@@ -99,7 +99,8 @@ struct Robot {
 [[nodiscard]] SUNDER_API std::uint32_t find_joint(const Robot& robot, std::string_view name);
 [[nodiscard]] SUNDER_API std::uint32_t find_value(const Robot& robot, std::string_view name);
 
-/// RobotValue::rest of all values: the pose in which the robot's character is at rest. Allocates.
+/// RobotValue::rest of all values: the pose in which the robot's character is at rest. Allocates;
+/// none if there is no memory.
 [[nodiscard]] SUNDER_API std::vector<double> rest_values(const Robot& robot);
 
 /// Enforces limits: moves every value that is outside of its limits to the nearest one.
