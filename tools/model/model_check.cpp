@@ -65,8 +65,8 @@ ModelCheck check_model(const Character& character) {
 
 bool is_static(const Character& character) {
   return character.clips.empty() && std::ranges::all_of(character.skins, [](const Skin& skin) {
-    return skin.bones.size() <= 1;
-  });
+           return skin.bones.size() <= 1;
+         });
 }
 
 }  // namespace sunder::tools

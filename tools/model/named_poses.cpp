@@ -67,9 +67,8 @@ std::string advice_on_names(const AimedOperation& operation, const Character& ch
       },
       operation);
   if (!advice.empty() || has_bone) return advice;
-  return is_static(character)
-             ? "; the model is static: no clips, and no skin of several bones"
-             : "; `sunder info MODEL --bones` lists the bones";
+  return is_static(character) ? "; the model is static: no clips, and no skin of several bones"
+                              : "; `sunder info MODEL --bones` lists the bones";
 }
 
 std::string advice_on_names(const RefitOptions& refit, const Character& character) {

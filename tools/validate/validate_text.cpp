@@ -38,9 +38,8 @@ std::string worst_deviation(const ValidationReport& report) {
     if (figures.pose_count > 0) worst = std::max(worst, figures.maximum);
   if (worst < 0) return {};
   // Without a finding of the weights, what is left is the interpolation on the source's faces.
-  const bool is_of_weights =
-      std::ranges::find(report.findings, "SUNDER_W_DEVIATION", &Finding::code) !=
-      report.findings.end();
+  const bool is_of_weights = std::ranges::find(report.findings, "SUNDER_W_DEVIATION",
+                                               &Finding::code) != report.findings.end();
   const bool is_large = worst > ValidationOptions().maximum_deviation * report.diagonal;
   return printed("worst deviation %.3g m, %.3g %% of the diagonal%s; ", worst,
                  report.diagonal > 0 ? 100 * worst / report.diagonal : 0.0,
