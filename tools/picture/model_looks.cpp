@@ -99,7 +99,7 @@ void ModelLooks::add_mesh(const Mesh& mesh, const DeformedMesh& posed, const Fle
         mesh.submeshes[submesh].material != kNone && kFirst + given < materials_.size())
       drawn.material = static_cast<std::uint32_t>(kFirst + given);
     if (is_flesh) drawn.material = kFlesh;
-    drawn.has_flesh_inside = flesh.is_inside;
+    drawn.has_flesh_inside = flesh.inside != nullptr && (*flesh.inside)[t];
     // The plain material does not darken the colours of the vertices.
     const bool is_plain = drawn.material == kPlain && has_colors;
     const BaseColour& colour = colours_[drawn.material];

@@ -32,7 +32,8 @@ class ModelLooks {
   struct Flesh {
     std::uint32_t first_submesh = kNone;  ///< From this one on they are walls and caps: flesh.
     float unit = 1;                       ///< Size of its features, metres.
-    bool is_inside = false;               ///< The inside of the surface is flesh too.
+    /// Per triangle: whether its inside is flesh too; null: of none.
+    const std::vector<bool>* inside = nullptr;
   };
   /// Adds the surface of a mesh to a scene that began here.
   /// @param posed  of the mesh, with normals.

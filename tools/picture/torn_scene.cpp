@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "tools/picture/enclosing_faces.h"
 #include "tools/picture/rims.h"
 #include "tools/picture/wound_flesh.h"
 
@@ -50,10 +51,11 @@ RenderScene make_torn_scene(const TornView& view, const ModelLooks& looks, doubl
     if (view.torn.character().meshes[m].submeshes.size() >
         view.torn.source().meshes[m].submeshes.size())
       is_torn[m] = true;
+  const std::vector<std::vector<bool>> inside = enclosing_faces(view.torn.character(), view.closed);
   for (std::uint32_t m = 0; m < view.open.size(); ++m)
     looks.add_mesh(view.torn.character().meshes[m], view.open[m],
                    {static_cast<std::uint32_t>(view.torn.source().meshes[m].submeshes.size()),
-                    kUnitOfThickness * depth, is_torn[m]},
+                    kUnitOfThickness * depth, is_torn[m] ? &inside[m] : nullptr},
                    scene);
   const WoundFlesh wounds(view.torn, view.wounds, view.closed);
   wounds.add(view.closed, view.open, ModelLooks::kFlesh, scene);
