@@ -376,7 +376,7 @@ TEST(BindByHeat, wrong_options_are_refused_with_their_cause) {
   EXPECT_THAT(error(options), HasSubstr("did you mean"));
   options = {};
   options.heat = 0;
-  EXPECT_THAT(error(options), HasSubstr("above 0"));
+  EXPECT_THAT(error(options), HasSubstr("heat is 0; it must be from"));
   options.heat = std::nan("");
   EXPECT_FALSE(error(options).empty());
   EXPECT_FALSE(bind_by_heat(tube, Character()));

@@ -157,12 +157,12 @@ TEST(RefitGroups, options_that_cannot_be_kept_are_refused) {
     EXPECT_EQ(torn.model->digest(), digest);
   };
   refused([](RefitOptions& refit) { refit.bound = 0.5; }, StatusCode::invalid_argument, "0.5");
-  refused([](RefitOptions& refit) { refit.bound = std::nan(""); }, StatusCode::invalid_argument,
+  refused([](RefitOptions& refit) { refit.bound = std::nan(""); }, StatusCode::non_finite_value,
           "bound");
   refused([](RefitOptions& refit) { refit.importance.clips = -1; }, StatusCode::invalid_argument,
           "clips");
   refused([](RefitOptions& refit) { refit.importance.range_of_motion = std::nan(""); },
-          StatusCode::invalid_argument, "range of motion");
+          StatusCode::non_finite_value, "range of motion");
   refused(
       [](RefitOptions& refit) {
         refit.importance.of_clip = {{"clip0", -2}};

@@ -420,7 +420,7 @@ TEST(Transfer, options_out_of_range_are_refused) {
   };
   EXPECT_EQ(code_of([](TransferOptions& o) { o.distance = -1; }), StatusCode::invalid_argument);
   EXPECT_EQ(code_of([](TransferOptions& o) { o.angle = std::nan(""); }),
-            StatusCode::invalid_argument);
+            StatusCode::non_finite_value);
   EXPECT_EQ(code_of([](TransferOptions& o) { o.mix = 2; }), StatusCode::invalid_argument);
   EXPECT_EQ(code_of([](TransferOptions& o) { o.bones = {"nobody"}; }), StatusCode::not_found);
   EXPECT_EQ(code_of([](TransferOptions& o) {
