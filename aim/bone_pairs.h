@@ -3,7 +3,6 @@
 #include <sunder/core/character.h>
 #include <sunder/skinning/pose.h>
 
-#include <optional>
 #include <vector>
 
 namespace sunder::aim {

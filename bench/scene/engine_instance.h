@@ -22,7 +22,7 @@ class DeferredWork {
   std::vector<std::function<void()>> waiting_;
 };
 
-/// What a frame cost the thread that updates.
+/// The cost of a frame for the thread that updates.
 struct EngineFrame {
   double microseconds = 0;  ///< Processor time of Scene::update() and Scene::mesh().
   std::uint64_t uploaded_bytes = 0;

@@ -4,7 +4,7 @@
 
 namespace sunder::bench {
 
-/// What displacing every vertex adds to posing it: nanoseconds per vertex.
+/// The nanoseconds per vertex by which posing takes longer if every vertex is displaced.
 struct Displacing {
   double positions = 0, normals = 0, tangents = 0;  ///< Each together with those before.
 };

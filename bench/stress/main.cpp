@@ -50,8 +50,9 @@ bool parse(int count, char** arguments, Options& options, int& exit_code) {
                  "A log that another build wrote: its cases must have the same digests");
   app.add_option("--threads", threads_of_scenes, "Threads of each scene; default: 1 to 4 by seed");
   app.add_flag("--list", options.lists, "Lists the families");
-  app.add_flag("--tables", options.tables,
-               "Prints errors and times against the size of the trouble, for docs/method/stability.md");
+  app.add_flag(
+      "--tables", options.tables,
+      "Prints errors and times against the size of the trouble, for docs/method/stability.md");
   app.add_option("--plots", options.plots, "Folder for the plots of --tables (SVG)")
       ->check(CLI::ExistingDirectory);
   app.add_flag("--summary", options.summary, "Ends with one JSON object");

@@ -12,7 +12,7 @@ namespace sunder {
 /// Names that a mistyped one may stand for, nearest first: at most three, by the number of letters
 /// to insert, delete, replace or swap, capitals and namespaces aside, or because one contains the
 /// other or is near to a word of it ("Nek" to "spine_neck_1").
-/// Of names above 128 letters only the beginnings are compared. O(lengths of the names), allocates.
+/// Compares only the first 128 letters of names. O(lengths of the names), allocates.
 [[nodiscard]] SUNDER_API std::vector<std::string> nearest_names(const std::string& wanted,
                                                                 std::span<const std::string> names);
 

@@ -46,7 +46,7 @@ class AllowedFiles {
   /// Subtracts the size of a file that was opened elsewhere.
   /// @return limit_exceeded if it does not fit.
   [[nodiscard]] Status charge(const std::filesystem::path& file, std::uint64_t bytes);
-  /// What is left of the limit.
+  /// The bytes that the limit still allows.
   [[nodiscard]] std::uint64_t bytes_left() const { return budget_; }
 
  private:

@@ -52,7 +52,7 @@ inline constexpr NumberRange kWidthsFromZero = {
 
 /// Relative to the radius, as the 1,536 sides of a rim reach: 1 - cos(pi / 1536) = 2.1e-6.
 inline constexpr double kLeastChordTolerance = 2.5e-6;
-/// Of a bore of that radius; besides these 0, which stands for 1 % of the radius.
+/// The range of the chord tolerance of a bore with a radius. 0 is allowed too: 1 % of the radius.
 constexpr NumberRange chord_tolerance(double radius) {
   return {.field = "chord_tolerance",
           .least = kLeastChordTolerance * radius,

@@ -51,7 +51,7 @@ class ActorCommands {
     InBackground in_background;
     Operation operation;  ///< In the pose of the update that took it.
     std::optional<OperationJob> job;
-    /// Of the piece of a detachment: the job writes it before it is done.
+    /// The asset of the piece that a detachment takes off. The job writes it before it is done.
     std::shared_ptr<std::shared_ptr<const CharacterAsset>> asset;
     bool is_outdated = false;  ///< Whether a stroke has changed the instance since.
   };

@@ -16,8 +16,8 @@ namespace sunder::tear {
 //   Barycentric   barycentric coordinates
 //   Widths        fraction of the width of the gap
 //   Cosine, Sine  of the angle concerned
-// Bounds of rounding errors have wide margins. docs/method/tear.md lists all. The error bounds of exact
-// predicates are derived where they stand: tear/section/exact_predicates.cpp.
+// Bounds of rounding errors have wide margins. docs/method/tear.md lists all. The error bounds of
+// exact predicates are derived where they stand: tear/section/exact_predicates.cpp.
 
 // ---- Input.
 

@@ -14,9 +14,9 @@ struct FormerTriangle {
   Triangle vertices = {};
 };
 
-/// What an operation did to the triangles.
+/// The triangles that an operation changed or made.
 struct TriangleHistory {
-  Index count = 0;  ///< Of triangles before it; those beyond it made.
+  Index count = 0;  ///< Triangles before the operation, which made those beyond.
   std::vector<FormerTriangle> former;
 };
 

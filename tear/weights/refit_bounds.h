@@ -15,8 +15,8 @@ namespace sunder::tear {
 /// So a point may first exceed its own barycentric error by a multiple of the mean of its
 /// operation. Over groups where the points together lose too much, those that lose most get less,
 /// as many as necessary, and are fitted again. A point that has no slack left, and loses within
-/// rounding only, keeps its barycentric weights. docs/method/weights.md shows that this ends, and that no
-/// group is worse then.
+/// rounding only, keeps its barycentric weights. docs/method/weights.md shows that this ends, and
+/// that no group is worse then.
 class RefitBounds {
  public:
   /// @param groups      number of groups of poses.

@@ -1,6 +1,6 @@
-// Makes the table of formats in docs/method/io.md: each sample file is read, changed, saved and read
-// again, and compared with what assimp itself or, for glTF, the code that generates the sample says
-// that it holds. With SUNDER_WRITE_FORMATS=1 the test rewrites the rows of the samples that it
+// Makes the table of formats in docs/method/io.md: each sample file is read, changed, saved and
+// read again, and compared with what assimp itself or, for glTF, the code that generates the sample
+// says that it holds. With SUNDER_WRITE_FORMATS=1 the test rewrites the rows of the samples that it
 // found.
 
 #include <sunder/io/character_file.h>
@@ -457,7 +457,8 @@ std::vector<std::string> order_of_rows() {
 }
 
 TEST(Formats, table_says_what_is_kept) {
-  const std::filesystem::path file = std::filesystem::path(SUNDER_SOURCE_DIR) / "docs" / "method" / "io.md";
+  const std::filesystem::path file =
+      std::filesystem::path(SUNDER_SOURCE_DIR) / "docs" / "method" / "io.md";
   Page page(file);
   ASSERT_FALSE(page.after.empty()) << "docs/method/io.md has no " << kEnd;
   const auto computed = computed_rows();

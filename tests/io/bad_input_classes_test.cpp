@@ -1,5 +1,5 @@
-// One test per class of bad input, each with what a strict and a lenient reading do; docs/method/io.md has
-// the rules. Files are generated.
+// One test per class of bad input, each with what a strict and a lenient reading do;
+// docs/method/io.md has the rules. Files are generated.
 
 #include <sunder/skinning/pose.h>
 #include <sunder/tear/topology.h>

@@ -125,7 +125,8 @@ TEST(hostile_snapshot, indices_are_not_exchanged_for_others) {
     if (number > 0 && number < 512) places.push_back(at);
   }
   ASSERT_GT(places.size(), 1000u);
-  const auto stride = static_cast<std::size_t>(7 / test::stressed(1, 7));
+  const std::size_t stride =
+      places.size() / static_cast<std::size_t>(test::stressed(1500, 1000)) + 1;
   for (std::size_t i = 3; i < places.size(); i += stride) {
     SCOPED_TRACE(places[i]);
     Bytes bytes = good;

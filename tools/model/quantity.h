@@ -5,7 +5,7 @@
 
 namespace sunder::tools {
 
-/// What a number on the command line counts.
+/// The quantity of a number on the command line.
 enum class Quantity {
   number,  ///< Without a unit.
   length,  ///< Metres: m, cm, mm, um.

@@ -1,5 +1,6 @@
 #include "tools/picture/torn_scene.h"
 
+#include <algorithm>
 #include <array>
 
 #include "tools/picture/enclosing_faces.h"
@@ -51,7 +52,9 @@ RenderScene make_torn_scene(const TornView& view, const ModelLooks& looks, doubl
     if (view.torn.character().meshes[m].submeshes.size() >
         view.torn.source().meshes[m].submeshes.size())
       is_torn[m] = true;
-  const std::vector<std::vector<bool>> inside = enclosing_faces(view.torn.character(), view.closed);
+  std::vector<std::vector<bool>> inside;
+  if (std::ranges::count(is_torn, true) > 0)
+    inside = enclosing_faces(view.torn.character(), view.closed);
   for (std::uint32_t m = 0; m < view.open.size(); ++m)
     looks.add_mesh(view.torn.character().meshes[m], view.open[m],
                    {static_cast<std::uint32_t>(view.torn.source().meshes[m].submeshes.size()),

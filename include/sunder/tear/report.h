@@ -72,8 +72,8 @@ struct WeightReport {
   std::uint32_t pruned = 0;
   /// `refit`: no pose moves a point farther from its exact place than this, metres: with
   /// barycentric weights and as they were fitted. Joints are free, and only points with a
-  /// certificate count; see docs/certificate.md. With several roots, a pose in which they slide by d
-  /// metres from bind may exceed them by 4e-6 d.
+  /// certificate count; see docs/certificate.md. With several roots, a pose in which they slide by
+  /// d metres from bind may exceed them by 4e-6 d.
   double certified_barycentric = 0, certified = 0;
   std::uint32_t uncertified = 0;  ///< `refit`: points without a certificate.
 };
