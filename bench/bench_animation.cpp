@@ -50,21 +50,21 @@ void measure_layers() {
     (void)player.advance(0.011);
     if (player.has_changed()) (void)player.evaluate(pose);
   };
-  std::printf("frame of %zu bones, %zu channels\n", pose.parent_from_bone.size(),
+  std::printf("| %zu bones, %zu channels | µs |\n|---|---|\n", pose.parent_from_bone.size(),
               character->clips[0].channels.size());
-  std::printf("  sample_clip()                %8.2f us\n", plain);
-  std::printf("  one layer                    %8.2f us\n", microseconds(500, frame));
+  std::printf("| `sample_clip()` | %.2g |\n", plain);
+  std::printf("| one layer | %.2g |\n", microseconds(500, frame));
   LayerOptions options;
   options.fade_in = 1e9;
   (void)player.cross_fade(clip_of(character, 1), options);
-  std::printf("  cross-fade of two            %8.2f us\n", microseconds(500, frame));
+  std::printf("| a cross-fade of two | %.2g |\n", microseconds(500, frame));
   options = {};
   options.kind = LayerKind::additive;
   (void)player.play(clip_of(character, 2), options);
-  std::printf("  and an additive one          %8.2f us\n", microseconds(500, frame));
+  std::printf("| the same and an additive layer | %.2g |\n", microseconds(500, frame));
   player.stop_all();
   (void)player.evaluate(pose);
-  std::printf("  nothing plays                %8.4f us\n", microseconds(5000, frame));
+  std::printf("| nothing plays | %.2g |\n", microseconds(5000, frame));
 }
 
 struct Arm {
@@ -93,7 +93,9 @@ Arm make_arm(std::uint32_t count, bool is_limited) {
 }
 
 void measure_pulls() {
-  std::printf("pull, us and steps per call        drag    far, steps   out of reach, steps\n");
+  std::printf(
+      "\n| chain | dragged by 1 %% of the reach, µs | from rest to anywhere in reach, µs | steps "
+      "| from rest, out of reach, µs | steps |\n|---|---|---|---|---|---|\n");
   for (const std::uint32_t count : {2u, 4u, 10u, 30u})
     for (const bool is_limited : {false, true}) {
       const Arm arm = make_arm(count, is_limited);
@@ -126,8 +128,8 @@ void measure_pulls() {
         pose = arm.rest;
         pull(1.5 * reach * random.direction());
       });
-      std::printf("  %2u bones, %-9s            %8.2f %8.2f %5.1f %12.2f %5.1f\n", count,
-                  is_limited ? "limited" : "free", drag, far, far_steps, beyond, steps / calls);
+      std::printf("| %u bones%s | %.2g | %.2g | %.0f | %.2g | %.0f |\n", count,
+                  is_limited ? " with limits" : "", drag, far, far_steps, beyond, steps / calls);
     }
 }
 
@@ -144,10 +146,9 @@ void measure_keys() {
     (void)sample_clip(character->clips[0], std::fmod(frame / 60.0, 1.0), pose);
     runs.push_back(1e6 * cpu_seconds_of([&] { (void)editor.insert(frame / 60.0, pose); }));
   }
-  std::printf("key frames of 163 bones, 600 of them\n");
-  std::printf("  insert()                     %8.2f us\n", median(runs));
-  std::printf("  snapshot()                   %8.2f us\n",
-              microseconds(3, [&] { (void)editor.snapshot(); }));
+  std::printf("\n| 600 key frames of 163 bones | µs |\n|---|---|\n");
+  std::printf("| `insert()` | %.2g |\n", median(runs));
+  std::printf("| `snapshot()` | %.3g |\n", microseconds(3, [&] { (void)editor.snapshot(); }));
 }
 
 }  // namespace

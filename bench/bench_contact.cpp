@@ -6,11 +6,12 @@
 #include <sunder/tear/contact.h>
 #include <sunder/tear/preview.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/harness/cpu_seconds.h"
@@ -100,16 +101,27 @@ float first_by_scan(const Mesh& mesh, std::span<const Vec3f> positions, const Ve
   return first;
 }
 
-using Samples = std::map<std::string, std::vector<double>>;
+/// Times by name, in the order in which they were first measured.
+using Samples = std::vector<std::pair<std::string, std::vector<double>>>;
 
-/// Nanoseconds of this process per call; others do not count.
+/// Microseconds of this process per call; others do not count.
 template <class Work>
 void add_time(Samples& samples, const char* name, int calls, Work work) {
   const double seconds = cpu_seconds_of([&] {
     for (int i = 0; i < calls; ++i) work(i);
   });
-  samples[name].push_back(1e9 * seconds / calls);
+  auto found = std::find_if(samples.begin(), samples.end(),
+                            [&](const auto& sample) { return sample.first == name; });
+  if (found == samples.end()) found = samples.insert(found, {name, {}});
+  found->second.push_back(1e6 * seconds / calls);
 }
+
+/// One size of the model.
+struct Column {
+  std::string size;
+  Samples samples;
+  double megabytes = 0;  ///< Of the trees and the cache of a query.
+};
 
 void measure_queries(const Scene& scene, const Queries& queries, SurfaceQuery& query,
                      Samples& samples) {
@@ -124,28 +136,28 @@ void measure_queries(const Scene& scene, const Queries& queries, SurfaceQuery& q
   const auto stand = [&] {
     if (!query.set_pose(scene.next_pose())) std::abort();
   };
-  // A new pose per frame, then the queries of that frame, close together as those of a hand are.
-  add_time(samples, "frame of 16 rays", 16, [&](int frame) {
-    stand();
-    for (int i = 0; i < kPerFrame; ++i) ray(frame);
-  });
-  add_time(samples, "frame of 16 blades", 16, [&](int frame) {
-    stand();
-    for (int i = 0; i < kPerFrame; ++i) blade(frame);
-  });
-  add_time(samples, "first ray in a pose", 64, [&](int i) {
+  stand();
+  for (int i = 0; i < kQueries; ++i) ray(i), blade(i), capsule(i), point(i);
+  add_time(samples, "ray, in a pose", kQueries, ray);
+  add_time(samples, "blade through all layers, in a pose", kQueries, blade);
+  add_time(samples, "nearest point at 2 % of the model's size, in a pose", kQueries, point);
+  add_time(samples, "capsule of 10 % of the size, radius 2 %", kQueries, capsule);
+  add_time(samples, "first ray in a new pose", 64, [&](int i) {
     stand();
     ray(i);
   });
-  stand();
-  for (int i = 0; i < kQueries; ++i) ray(i), blade(i), capsule(i), point(i);
-  add_time(samples, "ray", kQueries, ray);
-  add_time(samples, "blade", kQueries, blade);
-  add_time(samples, "capsule", kQueries, capsule);
-  add_time(samples, "nearest point", kQueries, point);
+  // A new pose per frame, then the queries of that frame, close together as those of a hand are.
+  add_time(samples, "a frame of 16 rays", 16, [&](int frame) {
+    stand();
+    for (int i = 0; i < kPerFrame; ++i) ray(frame);
+  });
+  add_time(samples, "a frame of 16 blades", 16, [&](int frame) {
+    stand();
+    for (int i = 0; i < kPerFrame; ++i) blade(frame);
+  });
 }
 
-void measure(int divisions) {
+Column measure(int divisions) {
   const Scene& scene = scene_of(divisions);
   double size = 0;
   {
@@ -156,7 +168,8 @@ void measure(int divisions) {
   }
   const Queries queries = make_queries(scene, size);
   SurfaceQuery query = *SurfaceQuery::create(scene.model());
-  Samples samples;
+  Column column = {size_name(divisions), {}, 0};
+  Samples& samples = column.samples;
   std::vector<Vec3f> positions(scene.mesh().vertex_count());
   PosedMesh posed(scene, positions);
 #if SUNDER_BENCH_EMBREE
@@ -166,12 +179,12 @@ void measure(int divisions) {
   const int scanned = divisions > 5 ? 2 : 16;
   for (int round = 0; round < kRounds; ++round) {
     measure_queries(scene, queries, query, samples);
-    add_time(samples, "preview of a stroke", 4, [&](int) {
+    add_time(samples, "preview of a stroke across 100 faces", 4, [&](int) {
       if (!preview_tear(scene.model(), scene.next_pose(), scene.stroke)) std::abort();
     });
-    add_time(samples, "skinning of all vertices", 2, [&](int) { posed.pose(scene.next_pose()); });
+    add_time(samples, "*posing all vertices*", 2, [&](int) { posed.pose(scene.next_pose()); });
     float sum = 0;
-    add_time(samples, "ray, every face tested", scanned, [&](int i) {
+    add_time(samples, "*one ray, every face tested, on posed vertices*", scanned, [&](int i) {
       const Ray& ray = queries.rays[static_cast<std::size_t>(i)];
       sum += first_by_scan(scene.mesh(), positions, ray.origin.cast<float>(),
                            ray.direction.cast<float>());
@@ -181,13 +194,13 @@ void measure(int divisions) {
       const Ray& of = queries.rays[static_cast<std::size_t>(i)];
       sum += embree.cast_ray(of.origin.cast<float>(), of.direction.cast<float>()).value_or(0);
     };
-    add_time(samples, "Embree: skinning and refit", 2, [&](int) {
+    add_time(samples, "*Embree: skinning and refit*", 2, [&](int) {
       posed_for_embree.pose(scene.next_pose());
       embree.refit();
     });
     for (int i = 0; i < kQueries; ++i) ray(i);
-    add_time(samples, "Embree: ray", kQueries, ray);
-    add_time(samples, "Embree: frame of 16 rays", 2, [&](int frame) {
+    add_time(samples, "*Embree: one ray, after a refit*", kQueries, ray);
+    add_time(samples, "*Embree: a frame of 16 rays, with skinning and refit*", 2, [&](int frame) {
       posed_for_embree.pose(scene.next_pose());
       embree.refit();
       for (int i = 0; i < kPerFrame; ++i) ray(frame);
@@ -195,12 +208,25 @@ void measure(int divisions) {
 #endif
     if (std::isnan(sum)) std::abort();
   }
-  std::printf("%s: %u vertices, %u faces; tree and cache %.1f MB\n", size_name(divisions).c_str(),
-              scene.mesh().vertex_count(), scene.mesh().triangle_count(),
-              1e-6 * static_cast<double>(query.memory_bytes()));
-  for (const auto& [name, values] : samples)
-    std::printf("  %-28s %14.0f ns, at least %14.0f\n", name.c_str(), median(values),
-                *std::min_element(values.begin(), values.end()));
+  column.megabytes = 1e-6 * static_cast<double>(query.memory_bytes());
+  return column;
+}
+
+void print_table(const std::vector<Column>& columns) {
+  std::string head = "| µs |", dashes = "\n|---|";
+  for (const Column& column : columns) {
+    head += " " + column.size + " vertices |";
+    dashes += "---|";
+  }
+  std::printf("%s%s\n", head.c_str(), dashes.c_str());
+  for (std::size_t row = 0; row < columns.front().samples.size(); ++row) {
+    std::printf("| %s |", columns.front().samples[row].first.c_str());
+    for (const Column& column : columns) std::printf(" %.3g |", median(column.samples[row].second));
+    std::printf("\n");
+  }
+  std::printf("| trees and cache of a query, MB |");
+  for (const Column& column : columns) std::printf(" %.2g |", column.megabytes);
+  std::printf("\n");
 }
 
 }  // namespace
@@ -211,9 +237,11 @@ int main(int argc, char** argv) {
   std::vector<int> sizes;
   for (int i = 1; i < argc; ++i) sizes.push_back(std::atoi(argv[i]));
   if (sizes.empty()) sizes = {1, 2, 5, 16};
+  std::vector<sunder::bench::Column> columns;
   for (const int divisions : sizes) {
     if (divisions < 1) return 2;
-    sunder::bench::measure(divisions);
+    columns.push_back(sunder::bench::measure(divisions));
   }
+  sunder::bench::print_table(columns);
   return 0;
 }

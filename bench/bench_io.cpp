@@ -47,14 +47,9 @@ constexpr const char* kHelp =
 constexpr std::size_t kSmall = 10000, kLarge = 170000, kLargest = 1000000;
 
 void print_imports(const IoFile& file, const ImportTimes& times) {
-  std::printf("%-20s %9zu %6zu %9.2f %9.2f %9.2f %10.0f %9.2f\n", file.name.c_str(), file.vertices,
+  std::printf("| %s | %zu | %zu | %.3g | %.3g | %.3g | %.2f |\n", file.name.c_str(), file.vertices,
               file.clips, 1e3 * times.ours, 1e3 * times.assimp, 1e3 * times.tinygltf,
-              1e9 * times.ours / static_cast<double>(file.vertices), times.ours / times.assimp);
-}
-
-void print_import_heads(const char* title) {
-  std::printf("%s\n%-20s %9s %6s %9s %9s %9s %10s %9s\n", title, "file", "vertices", "clips",
-              "ours, ms", "assimp", "tinygltf", "ns/vertex", "/ assimp");
+              times.ours / times.assimp);
 }
 
 /// `sunder info`, and a process that only loads.
@@ -74,21 +69,24 @@ InfoTimes time_info(const IoFile& file, const std::string& program, int rounds) 
 void print_tables(const std::string& program) {
   const test::TemporaryFolder folder;
   const auto small = small_characters(folder.path());
-  print_import_heads("small animated characters");
+  std::printf(
+      "| file | vertices | clips | ours, ms | assimp | tinygltf | ours / assimp |\n"
+      "|---|---|---|---|---|---|---|\n");
   for (const IoFile& file : small) print_imports(file, time_imports(file.path, 30));
 
   const auto growing = growing_files(folder.path(), kLargest);
-  print_import_heads("\none character, subdivided");
   for (const IoFile& file : growing) print_imports(file, time_imports(file.path, 10));
 
-  std::printf("\nwhole processes\n%-20s %9s %14s %9s %14s %9s %9s\n", "file", "vertices",
-              "info, wall ms", "load", "info, cpu ms", "load", "/ load");
+  std::printf(
+      "\n| file | vertices | `sunder info`, wall clock, ms | load | processor time, ms | load | "
+      "info / "
+      "load |\n|---|---|---|---|---|---|---|\n");
   std::vector<IoFile> all = small;
   all.insert(all.end(), growing.begin(), growing.end());
   for (const IoFile& file : all) {
     const InfoTimes times = time_info(file, program, 15);
-    std::printf("%-20s %9zu %14.2f %9.2f %14.2f %9.2f %9.2f\n", file.name.c_str(), file.vertices,
-                1e3 * times.info.wall, 1e3 * times.load.wall, 1e3 * times.info.cpu,
+    std::printf("| %s | %zu | %.3g | %.3g | %.3g | %.3g | %.1f |\n", file.name.c_str(),
+                file.vertices, 1e3 * times.info.wall, 1e3 * times.load.wall, 1e3 * times.info.cpu,
                 1e3 * times.load.cpu, times.ratio());
   }
 }
@@ -111,12 +109,13 @@ double fbx_ratio(const std::filesystem::path& file, const std::string& program) 
 
 void print_fbx(const std::string& program) {
   const test::TemporaryFolder folder;
-  std::printf("\nFBX, wall clock\n%-20s %9s %9s %13s %9s %9s %16s\n", "file", "corners", "ours, ms",
-              "in process", "assimp", "/ assimp", "whole processes");
+  std::printf(
+      "\n| FBX | corners | ours, ms | in the process | assimp | ours / assimp | whole processes |\n"
+      "|---|---|---|---|---|---|---|\n");
   for (const std::filesystem::path& file : fbx_files(folder.path())) {
     const FbxTimes times = time_fbx(file, 7);
-    std::printf("%-20s %9zu %9.2f %13.2f %9.2f %9.2f %16.2f\n", times.file.c_str(), times.vertices,
-                1e3 * times.ours, 1e3 * times.in_process, 1e3 * times.assimp,
+    std::printf("| %s | %zu | %.3g | %.3g | %.3g | %.2f | %.2f |\n", times.file.c_str(),
+                times.vertices, 1e3 * times.ours, 1e3 * times.in_process, 1e3 * times.assimp,
                 times.ours / times.assimp, fbx_ratio(file, program));
   }
 }

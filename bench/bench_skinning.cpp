@@ -241,47 +241,64 @@ SizeFigures measure_size(const SkinningScene& scene, std::deque<CrowdMember>& al
 }
 
 void print_row(std::uint32_t vertices, const char* what, const Times& times) {
-  std::printf("%8u  %-14s %6.2f %6.2f %6.2f   %10.2f %10.2f   %11.2f %5.2f\n", vertices, what,
+  std::printf("| %u, %s | %.2f | %.2f | %.2f | %.1f | %.1f | %.1f | %.1f |\n", vertices, what,
               times.eigen, times.ours, times.touch, times.eigen / times.ours,
               times.ours / times.touch, times.ours / times.two_threads,
               times.touch / times.touch_two_threads);
-  std::fflush(stdout);
 }
 
-void print_tables() {
-  std::printf("ns a vertex: positions and normals, 64 bones, up to 4 influences\n");
+void print_speeds() {
   std::printf(
-      "vertices                  Eigen   ours  touch   Eigen/ours ours/touch   two threads "
-      "touch\n");
+      "| vertices | Eigen | ours | touch | Eigen / ours | ours / touch | two threads | touch, two "
+      "threads |\n|---|---|---|---|---|---|---|---|\n");
   for (const int divisions : kDivisions)
     for (const bool ordered : {true, false}) {
       const SkinningScene scene(divisions, ordered);
-      std::deque<CrowdMember> alone;
-      alone.emplace_back(scene);
-      const SizeFigures figures = measure_size(scene, alone);
-      print_row(scene.vertex_count(), ordered ? "ordered, warm" : "file, warm", figures.warm);
-      alone.clear();
-      std::deque<CrowdMember> crowd = make_crowd(scene);
-      print_row(scene.vertex_count(), ordered ? "ordered, crowd" : "file, crowd",
-                measure_crowd(scene, crowd, 9));
-      crowd.clear();
-      const Frames& frames = figures.frames;
-      std::printf(
-          "          a frame %.2f us, set() %.2f us, unchanged %.3f us; one bone moves %.4f of the "
-          "vertices, takes %.4f of a "
-          "frame\n",
-          frames.full_us, frames.set_us, frames.idle_us, frames.moved_share, frames.one_bone_share);
-      std::printf(
-          "          maximum error of 2 m: ours %.2g m, normals %.2g; Eigen %.2g m, normals %.2g\n",
-          figures.error.position, figures.error.normal, figures.eigen_error.position,
-          figures.eigen_error.normal);
-      for (const auto& [name, time] : measure_variants(scene))
-        std::printf("          %-34s %6.2f\n", name, time);
-      const Displacing displacing = measure_displacing(scene);
-      std::printf(
-          "          displacing adds: positions %.2f, with normals %.2f, with tangents too %.2f\n",
-          displacing.positions, displacing.normals, displacing.tangents);
+      std::deque<CrowdMember> members;
+      members.emplace_back(scene);
+      print_row(scene.vertex_count(), ordered ? "ordered, warm" : "file's order, warm",
+                measure_crowd(scene, members, 25));
+      if (!ordered) continue;
+      members = make_crowd(scene);
+      print_row(scene.vertex_count(), "ordered, crowd", measure_crowd(scene, members, 9));
+      std::fflush(stdout);
     }
+}
+
+/// What changes little, other attributes and layouts, and displacements, of our code alone.
+void print_frames() {
+  std::printf(
+      "\n| vertices, ordered | a frame, µs | `set()`, µs | unchanged, µs | vertices that a bone "
+      "moves | time of its frame | largest error at 2 m, m | of Eigen, m |\n"
+      "|---|---|---|---|---|---|---|---|\n");
+  std::string variants = "\n| vertices, ordered |", rows;
+  bool is_first = true;
+  for (const int divisions : kDivisions) {
+    const SkinningScene scene(divisions, true);
+    std::deque<CrowdMember> alone;
+    alone.emplace_back(scene);
+    const SizeFigures figures = measure_size(scene, alone);
+    const Frames& frames = figures.frames;
+    std::printf("| %u | %.3g | %.2g | %.2g | %.1f %% | %.1f %% | %.1e | %.1e |\n",
+                scene.vertex_count(), frames.full_us, frames.set_us, frames.idle_us,
+                100 * frames.moved_share, 100 * frames.one_bone_share, figures.error.position,
+                figures.eigen_error.position);
+    rows += "| " + std::to_string(scene.vertex_count()) + " |";
+    const auto add = [&](const std::string& name, double ns) {
+      if (is_first) variants += " " + name + " |";
+      char text[32];
+      std::snprintf(text, sizeof text, " %.2f |", ns);
+      rows += text;
+    };
+    for (const auto& [name, ns] : measure_variants(scene)) add(name, ns);
+    const Displacing displacing = measure_displacing(scene);
+    add("displacing positions adds", displacing.positions);
+    add("with normals", displacing.normals);
+    add("with tangents too", displacing.tangents);
+    rows += "\n";
+    is_first = false;
+  }
+  std::printf("%s\n|---|---|---|---|---|---|---|---|\n%s", variants.c_str(), rows.c_str());
 }
 
 void print_summary() {
@@ -324,7 +341,8 @@ void print_summary() {
 
 int main(int argc, char** argv) {
   if (argc == 1) {
-    sunder::bench::print_tables();
+    sunder::bench::print_speeds();
+    sunder::bench::print_frames();
     return 0;
   }
   if (argc == 2 && std::strcmp(argv[1], "--summary") == 0) {

@@ -11,6 +11,7 @@
 #include "bench/tear/long_stroke.h"
 #include "bench/tear/model_memory.h"
 #include "bench/tear/repeated_operation.h"
+#include "bench/tear/size_table.h"
 #include "bench/tear/tear_stages.h"
 #include "bench/tear/tear_summary.h"
 #include "bench/tear/touch_baseline.h"
@@ -255,14 +256,20 @@ int main(int argc, char** argv) {
     sunder::bench::print_cut_summary();
     return 0;
   }
+  const bool is_table = argc == 2 && std::strcmp(argv[1], "--table") == 0;
+  if (is_table) argc = 1;
   benchmark::Initialize(&argc, argv, print_help);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) {
-    std::fprintf(stderr,
-                 "bench_tear takes --summary, --cuts or --widths alone, or options of Google "
-                 "Benchmark; see --help\n");
+    std::fprintf(
+        stderr,
+        "bench_tear takes --summary, --table, --cuts or --widths alone, or options of Google "
+        "Benchmark; see --help\n");
     return 2;
   }
-  benchmark::RunSpecifiedBenchmarks();
+  if (sunder::bench::SizeTable table; is_table)
+    benchmark::RunSpecifiedBenchmarks(&table, sunder::bench::SizeTable::filter());
+  else
+    benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();
   return 0;
 }

@@ -5,8 +5,12 @@
 namespace sunder::bench {
 namespace {
 
-/// Counts are printed with all digits.
+/// Counts are printed with all digits. JSON has no infinity.
 void print(std::FILE* file, double value) {
+  if (!std::isfinite(value)) {
+    std::fprintf(file, "null");
+    return;
+  }
   const bool is_count = value == std::floor(value) && std::abs(value) < 1e15;
   std::fprintf(file, is_count ? "%.0f" : "%.6g", value);
 }

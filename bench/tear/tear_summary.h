@@ -11,7 +11,7 @@ void print_removals();
 
 /// Explains the figures of the summary.
 inline constexpr const char* kSummaryHelp =
-    "bench_tear [--summary | --cuts | --widths] [options of Google Benchmark: --help]\n"
+    "bench_tear [--summary | --table | --cuts | --widths] [options of Google Benchmark: --help]\n"
     "\n"
     "Without --summary: all benchmarks. Each time is a median of up to 300 runs; the last word of "
     "a name says how often each face "
@@ -58,6 +58,7 @@ inline constexpr const char* kSummaryHelp =
     "capped_cut_vs_vtk, their\n"
     "times in microseconds, and the allocations of a cut and its undo.\n"
     "\n"
+    "--table prints medians by operation and size.\n"
     "--widths prints the figures of the summary that compare widths and bores with the plain "
     "tear.\n";
 
