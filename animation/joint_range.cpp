@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "animation/rotation.h"
+#include "core/internal/elementary.h"
 
 namespace sunder::animation {
 namespace {
@@ -13,7 +14,7 @@ constexpr double kTurn = 2.0 * std::numbers::pi;
 
 /// The part of a rotation about a unit axis, as an angle in (-2 pi, 2 pi].
 double twist_angle(const Quatd& rotation, const Vec3d& axis) {
-  return 2.0 * std::atan2(dot(rotation.vec(), axis), rotation.w());
+  return 2.0 * elementary::atan2(dot(rotation.vec(), axis), rotation.w());
 }
 
 /// The angle plus whole turns, within the range; the limit that is nearer on the circle if there is
@@ -65,7 +66,7 @@ Quatd JointRange::clamped_cone(const Quatd& relative) const {
   Quatd swing = multiply(relative, conjugate(twist));
   if (swing.w() < 0.0) swing.coeffs() = -swing.coeffs();
   const double sine = norm(swing.vec());
-  if (2.0 * std::atan2(sine, swing.w()) > cone_ && sine > 0.0)
+  if (2.0 * elementary::atan2(sine, swing.w()) > cone_ && sine > 0.0)
     swing = about(Vec3d(swing.vec() / sine), cone_);
   return multiply(swing, about(axis_, into_range(twist_angle(twist, axis_), lower_, upper_)));
 }

@@ -7,6 +7,7 @@
 #include "animation/pull_chain.h"
 #include "animation/pull_solver.h"
 #include "animation/rotation.h"
+#include "core/internal/elementary.h"
 #include "core/internal/out_of_memory.h"
 
 namespace sunder {
@@ -132,7 +133,7 @@ Status check_pull(std::span<const PullTarget> targets, const Pose& pose, std::si
 /// Radians between two rotations.
 double angle_between(const Quatd& a, const Quatd& b) {
   const Vec4d chord = a.coeffs() - b.coeffs(), other = a.coeffs() + b.coeffs();
-  return 4.0 * std::asin(std::min(0.5 * std::min(norm(chord), norm(other)), 1.0));
+  return 4.0 * elementary::asin(std::min(0.5 * std::min(norm(chord), norm(other)), 1.0));
 }
 
 }  // namespace

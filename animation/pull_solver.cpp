@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "animation/rotation.h"
+#include "core/internal/elementary.h"
 
 namespace sunder::animation {
 namespace {
@@ -246,7 +247,7 @@ void PullSolver::bend(PullChain& chain) const {
     const Quatd before = chain.rotation(node);
     Quatd after = range.turned(before, Vec3d(angle * axis));
     // At a limit it bends the other way.
-    if (std::abs(dot(after.coeffs(), before.coeffs())) > std::cos(0.25 * kBend))
+    if (std::abs(dot(after.coeffs(), before.coeffs())) > elementary::cos(0.25 * kBend))
       after = range.turned(before, Vec3d(-angle * axis));
     chain.set_rotation(node, after);
     angle = angle > 0 ? -2.0 * kBend : 2.0 * kBend;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "animation/rotation.h"
+#include "core/internal/elementary.h"
 #include "skinning/internal/sample_channel.h"
 
 namespace sunder::animation {
@@ -55,7 +56,7 @@ class Span {
       const Vec4d a = normalized(Vec4d(Vec4f(wanted).cast<double>()));
       const Vec4d b = sampled.rotation.coeffs().cast<double>();
       const double chord = std::min(norm(Vec4d(a - b)), norm(Vec4d(a + b)));
-      return 4.0 * std::asin(std::min(0.5 * chord, 1.0));
+      return 4.0 * elementary::asin(std::min(0.5 * chord, 1.0));
     }
     skinning::sample_channel(span_, time, numbers_);
     double largest = 0, sum = 0;

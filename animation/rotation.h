@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/internal/elementary.h"
 #include "core/internal/ordered.h"
 
 namespace sunder::animation {
@@ -13,8 +14,9 @@ namespace sunder::animation {
 inline Quatd rotation_by(const Vec3d& vector) {
   const double angle = norm(vector);
   // sin(x / 2) / x by its series where the quotient has no digits.
-  const double factor = angle > 1e-8 ? std::sin(0.5 * angle) / angle : 0.5;
-  return {std::cos(0.5 * angle), factor * vector.x(), factor * vector.y(), factor * vector.z()};
+  const double factor = angle > 1e-8 ? elementary::sin(0.5 * angle) / angle : 0.5;
+  return {elementary::cos(0.5 * angle), factor * vector.x(), factor * vector.y(),
+          factor * vector.z()};
 }
 
 /// A unit quaternion; identity for one without length.

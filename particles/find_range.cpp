@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/internal/elementary.h"
+
 namespace sunder {
 namespace {
 
@@ -78,7 +80,7 @@ Result<FoundRange> find_range_for_particles(const TornModel& model, const ModelP
     auto set = decompose(model, pose, range, seed);
     if (!set && set.error().code() != StatusCode::limit_exceeded) return set.error();
     const double count = set ? set->particle_count() : std::numeric_limits<std::uint32_t>::max();
-    const auto miss = [&](double of) { return std::abs(std::log(of / wanted)); };
+    const auto miss = [&](double of) { return std::abs(elementary::log(of / wanted)); };
     if (set && (best.particles == 0 || miss(count) < miss(best.particles)))
       best = {range, set->particle_count(), 0.0};
     if (set && std::abs(count - wanted) <= 0.02 * wanted) break;

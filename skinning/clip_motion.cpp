@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/internal/elementary.h"
 #include "core/internal/or_throw.h"
 #include "core/internal/ordered.h"
 
@@ -52,10 +53,11 @@ double distance(const BoneTransform& a, const BoneTransform& b, double size) {
   double scale = 0;
   for (int axis = 0; axis < 3; ++axis) {
     const double ratio = static_cast<double>(a.scale[axis]) / static_cast<double>(b.scale[axis]);
-    scale = std::max(scale, ratio > 0 && std::isfinite(ratio) ? std::abs(std::log(ratio)) : 1.0);
+    scale =
+        std::max(scale, ratio > 0 && std::isfinite(ratio) ? std::abs(elementary::log(ratio)) : 1.0);
   }
   if (a.scale == b.scale) scale = 0;  // zeros too
-  return 4 * std::asin(std::min(0.5 * chord, 1.0)) +
+  return 4 * elementary::asin(std::min(0.5 * chord, 1.0)) +
          (size > 0 ? kTurnPerSize * shift / size : 0.0) + kTurnPerScale * scale;
 }
 

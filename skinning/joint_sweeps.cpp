@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/internal/ordered.h"
+#include "core/internal/rotation_about.h"
 #include "skinning/internal/bone_tree.h"
 
 namespace sunder::skinning {
@@ -165,7 +166,7 @@ void compute_sweep(const Character& character, const JointSweeps& sweeps, const 
     BoneTransform local = bones[bone].rest;
     for (const Turn& turn : {sweep.bone, sweep.parent}) {
       if (turn.hinge == kNone || sweeps.hinges[turn.hinge].bone != bone) continue;
-      const Quatd rotation(Eigen::AngleAxisd{turn.angle, sweeps.hinges[turn.hinge].axis});
+      const Quatd rotation = rotation_about(turn.angle, sweeps.hinges[turn.hinge].axis);
       local.rotation = normalized(multiply(local.rotation.cast<double>(), rotation)).cast<float>();
     }
     return local;

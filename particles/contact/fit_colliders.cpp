@@ -61,11 +61,15 @@ Fitted fit_sphere(const std::vector<Vec3d>& points) {
   return {Collider::Sphere{radius}, 4.0 / 3 * std::numbers::pi * radius * radius * radius};
 }
 
+double from_axis(const Vec3d& point) {
+  return std::sqrt(point.x() * point.x() + point.z() * point.z());
+}
+
 Fitted fit_capsule(const std::vector<Vec3d>& points) {
   double radius = kThinnest, half_length = 0;
-  for (const Vec3d& point : points) radius = std::max(radius, std::hypot(point.x(), point.z()));
+  for (const Vec3d& point : points) radius = std::max(radius, from_axis(point));
   for (const Vec3d& point : points) {
-    const double beside = std::hypot(point.x(), point.z());
+    const double beside = from_axis(point);
     const double cap = std::sqrt(std::max(0.0, radius * radius - beside * beside));
     half_length = std::max(half_length, std::abs(point.y()) - cap);
   }

@@ -2,11 +2,13 @@
 
 #include <cmath>
 
+#include "core/internal/elementary.h"
+
 namespace sunder::particles {
 namespace {
 
 /// (1 - e^-x) / x.
-double mean_decay(double x) { return x > 0 ? -std::expm1(-x) / x : 1.0; }
+double mean_decay(double x) { return x > 0 ? -elementary::expm1(-x) / x : 1.0; }
 
 /// The response to a unit acceleration by its power series, for steps much shorter than all times
 /// of the spring: 1 - place_from_place has few digits there. Terms t_n of g(h) = sum t_n follow
@@ -31,8 +33,8 @@ SpringStep step_spring(double stiffness, double damping_ratio, double seconds) {
   const bool is_short = (2 * rate + frequency) * seconds < 0.5;
   if (damping_ratio < 1) {
     const double turn = frequency * std::sqrt((1 - damping_ratio) * (1 + damping_ratio)) * seconds;
-    const double decay = std::exp(-rate * seconds), cosine = decay * std::cos(turn);
-    step.place_from_velocity = decay * seconds * (turn > 0 ? std::sin(turn) / turn : 1.0);
+    const double decay = elementary::exp(-rate * seconds), cosine = decay * elementary::cos(turn);
+    step.place_from_velocity = decay * seconds * (turn > 0 ? elementary::sin(turn) / turn : 1.0);
     step.place_from_place = cosine + rate * step.place_from_velocity;
     step.velocity_from_velocity = cosine - rate * step.place_from_velocity;
     step.place_from_acceleration = is_short ? short_response(stiffness, 2 * rate, seconds)
@@ -42,7 +44,8 @@ SpringStep step_spring(double stiffness, double damping_ratio, double seconds) {
     // all digits if the fast one is very fast.
     const double apart = frequency * std::sqrt((damping_ratio - 1) * (damping_ratio + 1));
     const double fast = rate + apart, slow = fast > 0 ? stiffness / fast : 0.0;
-    const double slow_decay = std::exp(-slow * seconds), fast_decay = std::exp(-fast * seconds);
+    const double slow_decay = elementary::exp(-slow * seconds),
+                 fast_decay = elementary::exp(-fast * seconds);
     step.place_from_velocity = slow_decay * seconds * mean_decay(2 * apart * seconds);
     step.place_from_place = slow_decay + slow * step.place_from_velocity;
     step.velocity_from_velocity = fast_decay - slow * step.place_from_velocity;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/internal/elementary.h"
 #include "core/internal/ordered.h"
 #include "particles/clusters/lip_border.h"
 
@@ -21,7 +22,7 @@ class Line {
       : tissue_(tissue),
         surface_(tissue.model.surface()),
         border_(tissue.model),
-        along_(std::cos(direction), std::sin(direction)) {}
+        along_(elementary::cos(direction), elementary::sin(direction)) {}
 
   /// Begins in a face of the tip, whose edges there have the given directions.
   void begin(Index corner, double right, double left) {
@@ -31,7 +32,7 @@ class Line {
     left_ = end_of(Surface::next(exit_));
     const auto place = [&](End& end, double direction) {
       const double length = norm(Vec3d(end.position - tip));
-      end.flat = length * Vec2d(std::cos(direction), std::sin(direction));
+      end.flat = length * Vec2d(elementary::cos(direction), elementary::sin(direction));
     };
     place(right_, right);
     place(left_, left);
@@ -109,7 +110,8 @@ TipDisc::TipDisc(const Tissue& tissue, Index tip) : tissue_(tissue), tip_(tip) {
     };
     const Vec3d to_right = edge_to(Surface::next(corner)),
                 to_left = edge_to(Surface::previous(corner));
-    const double between = std::atan2(norm(Vec3d(to_right.cross(to_left))), dot(to_right, to_left));
+    const double between =
+        elementary::atan2(norm(Vec3d(to_right.cross(to_left))), dot(to_right, to_left));
     faces_.push_back({corner, angle_, angle_ + between});
     angle_ += between;
     if (border.has(Surface::previous(corner))) return;

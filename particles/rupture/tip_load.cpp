@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/internal/elementary.h"
 #include "core/internal/ordered.h"
 #include "particles/clusters/lip_spacing.h"
 #include "particles/clusters/structure_of.h"
@@ -87,14 +88,14 @@ Vec3d opening_at(const Tissue& tissue, const TipDisc& disc, const Membrane& memb
   for (std::size_t i = 0; i < TipDisc::kDistances; ++i) {
     const double r = TipDisc::distance(i, radius);
     areas[i] = r * disc.area_per_distance(radius);
-    decays[i] = std::exp(-membrane.decay * r) / std::sqrt(r);
+    decays[i] = elementary::exp(-membrane.decay * r) / std::sqrt(r);
     changes[i] = cutoff.curvature(r) - 2 * membrane.decay * cutoff.slope(r);
     values[i] = cutoff.value(r);
   }
   OtherLoads loads(tissue);
   Vec3d field = Vec3d::Zero();
   disc.for_each_line(radius, [&](double angle, std::span<const TipSample> samples) {
-    const double half = std::sin(std::numbers::pi * angle / disc.angle());
+    const double half = elementary::sin(std::numbers::pi * angle / disc.angle());
     for (std::size_t i = 0; i < samples.size(); ++i) {
       const double psi = half * decays[i];
       field += areas[i] * changes[i] * psi * samples[i].displacement;
@@ -105,7 +106,7 @@ Vec3d opening_at(const Tissue& tissue, const TipDisc& disc, const Membrane& memb
   const auto pulled = [&](const LipFromTip& lip) {
     return lip.pull_weighted([&](double from, double to) {
       const double middle = 0.5 * (from + to);
-      return cutoff.value(middle) * std::exp(-membrane.decay * middle) * 2 *
+      return cutoff.value(middle) * elementary::exp(-membrane.decay * middle) * 2 *
              (std::sqrt(to) - std::sqrt(from));  // the integral of 1 / sqrt(r)
     });
   };

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/internal/elementary.h"
 #include "core/internal/ordered.h"
 #include "skinning/internal/reference.h"
 #include "tear/internal/surface.h"
@@ -57,7 +58,7 @@ Vec3d weighted_normal(Index corner, PosedSurface& surface) {
   const Vec3d to_next = corners[(k + 1) % 3] - corners[k],
               to_previous = corners[(k + 2) % 3] - corners[k];
   const Vec3d across = to_next.cross(to_previous);
-  return std::atan2(norm(across), dot(to_next, to_previous)) * normalized(across);
+  return elementary::atan2(norm(across), dot(to_next, to_previous)) * normalized(across);
 }
 
 }  // namespace

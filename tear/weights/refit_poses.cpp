@@ -8,6 +8,7 @@
 
 #include "core/internal/find_named.h"
 #include "core/internal/ordered.h"
+#include "core/internal/rotation_about.h"
 #include "operation/internal/field_ranges.h"
 
 namespace sunder::tear {
@@ -68,9 +69,7 @@ class Random {
   std::mt19937 engine_{20220510};
 };
 
-Quatd turn(double angle, const Vec3d& axis) {
-  return Quatd(Eigen::AngleAxisd{angle, Eigen::Vector3d(normalized(axis))});
-}
+Quatd turn(double angle, const Vec3d& axis) { return rotation_about(angle, normalized(axis)); }
 
 /// A rotation of a bone within its limits, or within kRandomTurn about a random axis.
 Quatd random_turn(std::uint32_t bone, const std::vector<JointLimit>& limits, Random& random) {

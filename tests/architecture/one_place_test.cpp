@@ -1,5 +1,5 @@
 // What is done in one place alone, because it must be done with care: printing texts in which names
-// of files stand, and writing files.
+// of files stand, writing files, and functions whose bits differ between C libraries.
 
 #include <algorithm>
 #include <cctype>
@@ -69,6 +69,40 @@ TEST(OnePlace, files_are_written_by_one_function) {
   EXPECT_NE(first_match_below(root, "io/files", "none", kWriting), "");
   for (const char* const module : {"core", "skinning", "tear", "particles", "scene", "samples"})
     EXPECT_EQ(first_match_below(root, module, "none", kWriting), "");
+}
+
+/// Functions that C libraries round differently, as they are called in C++ and by Eigen.
+const char* const kInexactCalls[] = {
+    "std::sin(",  "std::cos(",   "std::tan(",   "std::asin(",  "std::acos(",   "std::atan(",
+    "std::sinh(", "std::cosh(",  "std::tanh(",  "std::atan2(", "std::exp(",    "std::exp2(",
+    "std::log(",  "std::log2(",  "std::log10(", "std::pow(",   "std::expm1(",  "std::log1p(",
+    "std::cbrt(", "std::hypot(", "AngleAxis",   ".slerp(",     ".eulerAngles("};
+
+std::string inexact_call_below(const fs::path& root, const std::string& folder,
+                               const std::string& allowed) {
+  for (const fs::path& file : source_files(root / folder)) {
+    if (name_below(root, file).starts_with(allowed)) continue;
+    const std::string code = without_comments_and_literals(text_of(file));
+    for (const char* const call : kInexactCalls)
+      if (code.find(call) != std::string::npos) return name_below(root, file) + ": " + call;
+  }
+  return {};
+}
+
+TEST(OnePlace, what_a_log_replays_has_the_same_bits_with_every_c_library) {
+  const fs::path root = SUNDER_SOURCE_DIR;
+  for (const char* const module :
+       {"core", "operation", "skinning", "weights", "bodies", "tear", "animation", "scene",
+        "bindings/c", "include/sunder/core", "include/sunder/skinning", "include/sunder/tear"})
+    EXPECT_EQ(inexact_call_below(root, module, "none"), "");
+  EXPECT_EQ(inexact_call_below(root, "particles", "particles/bullet/"), "");
+  EXPECT_NE(inexact_call_below(root, "robot", "none"), "");  // computed before a log is written
+  for (const char* const code : {"double f() { return std::sin(1); }",
+                                 "Quatd q(Eigen::AngleAxisd(1, axis));", "auto q = a.slerp(t, b);"})
+    EXPECT_NE(inexact_call_below(FixtureTree("tear/a.cpp", code).root(), "tear", "none"), "")
+        << code;
+  EXPECT_EQ(inexact_call_below(FixtureTree("tear/a.cpp", "// std::sin(x)").root(), "tear", "none"),
+            "");
 }
 
 TEST(OnePlace, the_words_are_found) {
