@@ -16,7 +16,10 @@
 #endif
 
 /// Lets GCC and Clang check the arguments of a printf format.
-#if defined(__GNUC__)
+#if defined(__MINGW32__)  // whose C++ library has the format of the standard, not that of Windows
+#define SUNDER_PRINTF(text, first_argument) \
+  __attribute__((format(gnu_printf, text, first_argument)))
+#elif defined(__GNUC__)
 #define SUNDER_PRINTF(text, first_argument) __attribute__((format(printf, text, first_argument)))
 #else
 #define SUNDER_PRINTF(text, first_argument)
