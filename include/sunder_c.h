@@ -75,8 +75,9 @@ enum {
 
 /* Parts that a build may lack. */
 enum {
-  SUNDER_FEATURE_THREADS = 1, /* scenes may have threads of their own */
-  SUNDER_FEATURE_HULLS = 2    /* sunder_get_piece_hulls() */
+  SUNDER_FEATURE_THREADS = 1,   /* scenes may have threads of their own */
+  SUNDER_FEATURE_HULLS = 2,     /* sunder_get_piece_hulls() */
+  SUNDER_FEATURE_VALIDATION = 4 /* sunder_validate() */
 };
 
 /* Version of the library, as SUNDER_C_VERSION. */
@@ -918,6 +919,103 @@ SUNDER_C_API sunder_status sunder_find_blade_contacts(sunder_scene scene, sunder
                                                       const sunder_blade* blade,
                                                       sunder_contact* contacts, uint32_t capacity,
                                                       uint32_t* count);
+
+/* How tissue resists a blade. */
+typedef struct sunder_cutting_resistance {
+  uint32_t struct_size;
+  uint32_t reserved;
+  double toughness; /* energy per area of new section, J/m^2; >= 0 */
+  double thickness; /* of the layer that is torn, metres; >= 0 */
+  double friction;  /* drag inside the tissue, newtons per metre of depth; >= 0 */
+  double greatest;  /* newtons, > 0: what the device can give */
+} sunder_cutting_resistance;
+
+SUNDER_C_API sunder_cutting_resistance sunder_default_cutting_resistance(void);
+/* The force that a blade feels, for a haptic device; it needs no scene. length_torn: of the frame,
+ * sunder_result.length; depth: of the tip below the surface, metres; motion: of the tip since the
+ * last frame, model space, metres. force: newtons, written; it opposes the motion. */
+SUNDER_C_API sunder_status sunder_blade_force(const sunder_cutting_resistance* tissue,
+                                              double length_torn, double depth,
+                                              const double motion[3], double force[3]);
+
+/* ---- Validation of a skin against its source ---- */
+
+typedef uint32_t sunder_report;
+
+enum { SUNDER_SEVERITY_NOTE = 0, SUNDER_SEVERITY_WARNING = 1, SUNDER_SEVERITY_ERROR = 2 };
+/* How a figure is known: from all data; as a bound for all poses; the largest over the poses that
+ * were tried. */
+enum {
+  SUNDER_EVIDENCE_EXACT = 0,
+  SUNDER_EVIDENCE_CERTIFIED = 1,
+  SUNDER_EVIDENCE_SAMPLED = 2,
+  SUNDER_EVIDENCE_NOT_TESTED = 3
+};
+
+/* docs/validation.md explains the fields. */
+typedef struct sunder_validation_options {
+  uint32_t struct_size;
+  uint32_t random_poses;    /* at most 100,000 */
+  uint32_t has_clip_limits; /* 1: certificates hold for the joints' reach in the source's clips */
+  uint32_t reserved;
+  uint64_t seed;
+  double random_angle;      /* largest turn of a bone from rest, radians */
+  double maximum_deviation; /* share of the diagonal; more is a warning */
+  double error_deviation;   /* share of the diagonal; more is an error */
+  double clip_margin;       /* radians beyond the reach in clips */
+} sunder_validation_options;
+
+/* One kind of fault, over all vertices that have it, and the worst place. */
+typedef struct sunder_finding {
+  const char* code;   /* "SUNDER_W_SUM" */
+  const char* text;   /* what is wrong, where, how much */
+  const char* advice; /* what to do about it */
+  const char* unit;
+  double value; /* the worst */
+  double threshold;
+  uint64_t count;    /* vertices, bones or edges concerned */
+  uint32_t severity; /* SUNDER_SEVERITY_... */
+  uint32_t evidence; /* SUNDER_EVIDENCE_... */
+  uint32_t mesh;     /* of the target; SUNDER_NONE: none */
+  uint32_t vertex;
+  uint32_t bone;
+  uint32_t reserved;
+} sunder_finding;
+
+typedef struct sunder_report_info {
+  uint32_t struct_size;
+  uint32_t error_count; /* findings of that severity */
+  uint32_t warning_count;
+  uint32_t note_count;
+  uint32_t pose_count;    /* in which the two were compared */
+  uint32_t vertex_count;  /* of the target, all meshes one after the other */
+  uint32_t unmatched;     /* vertices without a place on the source */
+  uint32_t uncertified;   /* matched vertices without a bound */
+  double diagonal;        /* of the source, metres */
+  double sampled;         /* the largest deviation in these poses, metres */
+  double found;           /* the largest that a search found within the joint limits */
+  double certified;       /* no certified vertex strays farther in any pose within the limits */
+  double metres_per_unit; /* of the source's bind space */
+} sunder_report_info;
+
+SUNDER_C_API sunder_validation_options sunder_default_validation_options(void);
+/* Compares the skin of a target with that of its source: rows of weights, deformation, and the
+ * place of the weights. O(vertices x poses), allocates. Fails: SUNDER_UNSUPPORTED_FEATURE without
+ * SUNDER_FEATURE_VALIDATION. */
+SUNDER_C_API sunder_status sunder_validate(sunder_character source, sunder_character target,
+                                           const sunder_validation_options* options,
+                                           sunder_report* report);
+SUNDER_C_API sunder_status sunder_destroy_report(sunder_report report);
+SUNDER_C_API sunder_status sunder_get_report(sunder_report report, sunder_report_info* info);
+/* By severity, errors first. A view, valid until the report is destroyed. */
+SUNDER_C_API sunder_status sunder_get_findings(sunder_report report,
+                                               const sunder_finding** findings, uint32_t* count);
+/* Per vertex of the target: the largest deviation over the poses that were tried, and the bound for
+ * all poses within the limits, metres; NaN: no match, or no bound. Views, valid until the report is
+ * destroyed. */
+SUNDER_C_API sunder_status sunder_get_vertex_deviations(sunder_report report,
+                                                        const float** deviations,
+                                                        const float** bounds, uint32_t* count);
 
 /* ---- Snapshots ---- */
 

@@ -1,3 +1,4 @@
+#include <sunder/tear/blade_force.h>
 #include <sunder/tear/contact.h>
 
 #include <algorithm>
@@ -124,6 +125,30 @@ sunder_status sunder_find_blade_contacts(sunder_scene scene, sunder_instance ins
                    contacts, contact_of);
     return SUNDER_OK;
   });
+}
+
+sunder_cutting_resistance sunder_default_cutting_resistance(void) {
+  const sunder::CuttingResistance from;
+  return {sizeof(sunder_cutting_resistance),
+          0,
+          from.toughness,
+          from.thickness,
+          from.friction,
+          from.greatest};
+}
+
+sunder_status sunder_blade_force(const sunder_cutting_resistance* tissue, double length_torn,
+                                 double depth, const double motion[3], double force[3]) {
+  SUNDER_C_TRY(check_struct(tissue, "tissue"));
+  if (motion == nullptr) return null_pointer("motion");
+  if (force == nullptr) return null_pointer("force");
+  const auto found = sunder::blade_force(
+      {tissue->toughness, tissue->thickness, tissue->friction, tissue->greatest},
+      {length_torn, depth, vector_of(motion)});
+  if (!found) return report(found.error());
+  const sunder::Vec3d newtons = found->newtons * found->direction;
+  std::copy_n(newtons.data(), 3, force);
+  return SUNDER_OK;
 }
 
 }  // extern "C"
