@@ -3,6 +3,7 @@
 #include <array>
 #include <new>
 
+#include "scene/instance_replay.h"
 #include "scene/saved_instance.h"
 #include "scene/scene_state.h"
 #include "scene/snapshot/asset_digest.h"
@@ -85,15 +86,16 @@ Result<SavedInstance> describe(const Actor& actor) {
 Status replay(const SavedInstance& saved, const RestoreBudget& budget,
               CharacterInstance& instance) {
   if (!saved.is_prepared) return {};
-  if (Status status = instance.prepare_to_tear(); !status) return status;
+  InstanceReplay replayed(instance);
+  if (Status status = replayed.begin(); !status) return status;
   if (Status status = budget.check_memory(instance.memory_bytes()); !status) return status;
   for (const std::vector<Operation>* operations : {&saved.done, &saved.undone})
     for (const Operation& operation : *operations) {
-      if (const auto report = instance.apply(operation); !report) return report.error();
+      if (Status status = replayed.apply(operation); !status) return status;
       if (Status status = budget.check_memory(instance.memory_bytes()); !status) return status;
     }
   for (std::size_t i = 0; i < saved.undone.size(); ++i)
-    if (Status status = instance.undo(); !status) return status;
+    if (Status status = replayed.undo(); !status) return status;
   return {};
 }
 
@@ -105,7 +107,7 @@ Status damaged(const char* what) {
 Status check_parts(const SavedInstance& saved, const CharacterInstance& made) {
   if (!saved.is_prepared && !(saved.done.empty() && saved.undone.empty()))
     return damaged("an instance without a torn model has operations");
-  if (saved.tissue.has_value() != (made.body() != nullptr))
+  if (saved.tissue.has_value() != (saved.is_prepared && made.asset()->options().soft))
     return damaged("an instance has tissue where there is none, or none where there is some");
   if (saved.is_prepared && (made.model()->undo_count() != saved.done.size() ||
                             made.model()->redo_count() != saved.undone.size()))

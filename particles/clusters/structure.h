@@ -85,8 +85,6 @@ struct Structure {
   /// all points.
   void prepare_for_tears(Index triangles);
   void make_room(std::size_t point_count);
-  /// Points of a particle, ascending. O(members log members), allocates.
-  [[nodiscard]] std::vector<Index> members_of(Index particle) const;
   /// Calls visit(point) for all members of a particle, and for points that were members once.
   /// Points may be repeated.
   template <class Visit>

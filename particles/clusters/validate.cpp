@@ -367,7 +367,7 @@ Status validate(Structure& structure, const Structure& decomposition, const Torn
   derive(structure, decomposition);
   if (Status status = check_history(structure, decomposition); !status) return status;
   if (Status status = check_vertex_history(structure, decomposition, model); !status) return status;
-  return check_sums(structure, model);
+  return check_sums(structure, decomposition, model);
 }
 
 }  // namespace sunder::particles

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "particles/clusters/member_search.h"
+
 namespace sunder::particles {
 namespace {
 
@@ -35,8 +37,9 @@ void follow_changed_weights(StructureEdit& edit, std::span<const ChangeRecord> c
   std::sort(particles.begin(), particles.end());
   particles.erase(std::unique(particles.begin(), particles.end()), particles.end());
   RestSums sums(edit.model(), structure.character.first_slots, structure.points.vertices);
+  MemberSearch search(structure);
   for (const Index particle : particles)
-    sums.sum(structure.members_of(particle), edit.change_particle(particle));
+    sums.sum(search.members_of(particle), edit.change_particle(particle));
 }
 
 }  // namespace sunder::particles

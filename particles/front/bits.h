@@ -27,6 +27,8 @@ class Bits {
     word = value ? before | bit : before & ~bit;
     return word != before;
   }
+  /// The first element from `at` on whose bit is 1; size() if there is none.
+  [[nodiscard]] Index next_one(Index at) const { return next(at, false); }
   /// Calls visit(first, end) for each run of ones, ascending. O(elements / 64 + runs).
   template <class Visit>
   void for_each_run(Visit visit) const {
