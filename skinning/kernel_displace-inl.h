@@ -206,7 +206,15 @@ inline void run_displacements(const VertexDisplacements& displacements, const Ve
   const VertexTarget to = target;
   const bool turns =
       !of.gradients.empty() && (to.normals.data != nullptr || to.tangents.data != nullptr);
+  // Rows of points are read ahead: those of neighbouring vertices need not be neighbours.
+  const auto expect = [&](std::uint32_t row) {
+    if (row >= of.influences.size()) return;
+    prefetch(&of.influences[row]);
+    if (turns) prefetch(&of.gradients[row]);
+  };
+  constexpr std::uint32_t kAhead = 16;
   for (std::uint32_t v = first; v < end; ++v) {
+    if (end - v > kAhead) expect(of.vertex_rows[v + kAhead]);
     const std::uint32_t row = of.vertex_rows[v];
     if (row >= of.influences.size() || !(of.influences[row].weights[0] > 0.0f)) continue;
     displace_position(of, of.influences[row], floats_at(to.positions, v));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/internal/prefetch.h"
 #include "skinning/displace.h"
 #include "skinning/skin_work.h"
 
