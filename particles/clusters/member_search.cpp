@@ -3,19 +3,22 @@
 namespace sunder::particles {
 
 std::span<const Index> MemberSearch::members_of(Index particle) {
-  Index first = structure_.points.count(), left = 0;
-  structure_.for_each_candidate(particle, [&](Index point) {
-    left += is_candidate_.set(point, true);
+  const PointTable& points = structure_.points;
+  Index first = kNone, last = 0;
+  const auto add = [&](Index point) {
+    (void)is_candidate_.set(point, true);
     first = std::min(first, point);
+    last = std::max(last, point);
+  };
+  structure_.for_each_decomposed(particle, add);
+  structure_.for_each_joined(particle, [&](Index point) {
+    if (points.find(point, particle) != nullptr) add(point);
   });
   found_.clear();
-  while (left > 0) {
-    const Index at = is_candidate_.next_one(first);
-    is_candidate_.set(at, false);
-    --left;
-    first = at + 1;
-    if (structure_.points.find(at, particle) != nullptr) found_.push_back(at);
-  }
+  is_candidate_.take_ones(first, last, [&](Index point) {
+    if (points.has_decomposed(point) || points.find(point, particle) != nullptr)
+      found_.push_back(point);
+  });
   return found_;
 }
 
