@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "particles/clusters/structure.h"
-#include "particles/front/bits.h"
+#include "particles/internal/bits.h"
 
 namespace sunder::particles {
 
