@@ -13,6 +13,7 @@
 #include "particles/clusters/check_pose.h"
 #include "particles/clusters/decompose_model.h"
 #include "particles/clusters/gradients.h"
+#include "particles/clusters/member_search.h"
 #include "particles/clusters/set_data.h"
 #include "particles/clusters/tips.h"
 #include "particles/repair/follow_history.h"
@@ -94,7 +95,9 @@ std::uint32_t ParticleSet::member_count(std::uint32_t particle) const {
 Result<std::vector<std::uint32_t>> ParticleSet::members(std::uint32_t particle) const {
   SUNDER_ASSERT(particle < particle_count());
   try {
-    return data_->now().members_of(particle);
+    particles::MemberSearch search(data_->now());
+    const std::span<const Index> members = search.members_of(particle);
+    return std::vector<std::uint32_t>(members.begin(), members.end());
   } catch (const std::bad_alloc&) {
     return out_of_memory();
   }

@@ -7,6 +7,8 @@
 #include "particles/clusters/gradients.h"
 #include "particles/clusters/set_data.h"
 #include "particles/clusters/validate.h"
+#include "tear/internal/former_triangles.h"
+#include "tear/internal/surface.h"
 
 namespace sunder {
 namespace {
@@ -24,9 +26,37 @@ Status check_version(const StateArrays& state) {
                          state.version, kParticlesVersion);
 }
 
-/// Sets what a recorded state does not contain.
-void complete(const TornModel& model, Structure& structure) {
-  *structure.gradients = particles::Gradients();
+/// Points whose memberships or faces are not those of the decomposition. Repeated.
+std::vector<Index> changed_points(const TornModel& model, const Structure& structure,
+                                  const Structure& decomposition) {
+  std::vector<Index> changed;
+  for (Index p = 0; p < decomposition.points.count(); ++p) {
+    const particles::MembershipSlab &now = structure.points.slabs[p],
+                                    &before = decomposition.points.slabs[p];
+    if (now.first != before.first || now.count != before.count) changed.push_back(p);
+  }
+  const tear::Surface& surface = model.surface();
+  const auto add_triangle = [&](Index triangle) {
+    const Index* const points = &surface.corner_point[3 * std::size_t{triangle}];
+    changed.insert(changed.end(), points, points + 3);
+  };
+  const std::vector<tear::TriangleHistory> histories = tear::triangles_before_operations(model);
+  for (const tear::TriangleHistory& history : histories)
+    for (const tear::FormerTriangle& former : history.former) {
+      changed.insert(changed.end(), former.points.begin(), former.points.end());
+      add_triangle(former.triangle);
+    }
+  for (Index t = decomposition.tears.triangle_count; t < surface.triangle_count(); ++t)
+    add_triangle(t);
+  return changed;
+}
+
+/// Sets what a recorded state does not contain. The structure has the gradients of the
+/// decomposition; those of other points are computed here and not in the next frame.
+void complete(const TornModel& model, const Structure& decomposition, Structure& structure) {
+  structure.gradients->forget(model.surface(), changed_points(model, structure, decomposition),
+                              nullptr);
+  (void)structure.gradients->of(model.surface(), structure);
   if (structure.tears.done.empty()) return;
   for (Change& change : structure.tears.done) change.operation = Change::kUnnamed;
   Change& last = structure.tears.done.back();
@@ -89,7 +119,7 @@ Result<ParticleSet> ParticleSet::restore(std::shared_ptr<const ParticleAsset> as
     tape.end();
     if (!tape.status()) return tape.status();
     if (Status status = particles::validate(*data->own, shared, model); !status) return status;
-    complete(model, *data->own);
+    complete(model, shared, *data->own);
     return ParticleSet(std::move(data));
   } catch (const std::bad_alloc&) {
     return out_of_memory();

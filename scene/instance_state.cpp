@@ -19,16 +19,17 @@ CharacterInstance::State::State(std::shared_ptr<const CharacterAsset> of, const 
 
 Status CharacterInstance::State::require_torn() {
   if (is_broken) return broken_for_lack_of_memory();
-  if (torn) return {};
-  const CharacterAssetOptions& options = shared().options;
+  return torn ? Status() : make_torn(shared().options.soft);
+}
+
+Status CharacterInstance::State::make_torn(const std::optional<SoftTissue>& soft) {
   try {
     Result<TornModel> model = TornModel::create(shared().torn, capacity);
     if (!model) return model.error();
-    if (Status status = model->set_weights(options.weights); !status) return status;
+    if (Status status = model->set_weights(shared().options.weights); !status) return status;
     auto parts = std::make_unique<scene::TornParts>(std::move(*model));
-    if (options.soft)
-      if (Status status = parts->make_soft(*options.soft, shared().particles); !status)
-        return status;
+    if (soft)
+      if (Status status = parts->make_soft(*soft, shared().particles); !status) return status;
     torn = std::move(parts);
     return {};
   } catch (const std::bad_alloc&) {
@@ -36,11 +37,15 @@ Status CharacterInstance::State::require_torn() {
   }
 }
 
-Status CharacterInstance::State::prepare_to_tear() {
+Status CharacterInstance::State::prepare_model() {
   if (Status status = require_torn(); !status) return status;
   if (torn->model.is_packed())
     if (Status status = shared().torn->prepare(1, capacity); !status) return status;
-  if (Status status = torn->model.unpack(); !status) return status;
+  return torn->model.unpack();
+}
+
+Status CharacterInstance::State::prepare_to_tear() {
+  if (Status status = prepare_model(); !status) return status;
   return torn->particles ? torn->particles->prepare_to_follow() : Status();
 }
 

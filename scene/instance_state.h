@@ -50,7 +50,11 @@ struct CharacterInstance::State {
 
   /// Makes what the first operation needs, if it is not there.
   Status require_torn();
-  /// The same, and all memory for it.
+  /// Makes it. @param soft  empty: without a soft body.
+  Status make_torn(const std::optional<SoftTissue>& soft);
+  /// The same, and the model has all memory for it.
+  Status prepare_model();
+  /// The same for the particles.
   Status prepare_to_tear();
   /// Replaces the soft body. A failure changes nothing. @throws std::bad_alloc
   Status restore_tissue(const SoftTissue& soft, ParticleSet set, const StateArrays& body);

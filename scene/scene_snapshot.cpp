@@ -1,8 +1,10 @@
 #include <sunder/core/memory_scope.h>
 
+#include <algorithm>
 #include <array>
 #include <new>
 
+#include "scene/instance_replay.h"
 #include "scene/saved_instance.h"
 #include "scene/scene_state.h"
 #include "scene/snapshot/asset_digest.h"
@@ -85,15 +87,16 @@ Result<SavedInstance> describe(const Actor& actor) {
 Status replay(const SavedInstance& saved, const RestoreBudget& budget,
               CharacterInstance& instance) {
   if (!saved.is_prepared) return {};
-  if (Status status = instance.prepare_to_tear(); !status) return status;
+  InstanceReplay replayed(instance);
+  if (Status status = replayed.begin(); !status) return status;
   if (Status status = budget.check_memory(instance.memory_bytes()); !status) return status;
   for (const std::vector<Operation>* operations : {&saved.done, &saved.undone})
     for (const Operation& operation : *operations) {
-      if (const auto report = instance.apply(operation); !report) return report.error();
+      if (Status status = replayed.apply(operation); !status) return status;
       if (Status status = budget.check_memory(instance.memory_bytes()); !status) return status;
     }
   for (std::size_t i = 0; i < saved.undone.size(); ++i)
-    if (Status status = instance.undo(); !status) return status;
+    if (Status status = replayed.undo(); !status) return status;
   return {};
 }
 
@@ -105,7 +108,7 @@ Status damaged(const char* what) {
 Status check_parts(const SavedInstance& saved, const CharacterInstance& made) {
   if (!saved.is_prepared && !(saved.done.empty() && saved.undone.empty()))
     return damaged("an instance without a torn model has operations");
-  if (saved.tissue.has_value() != (made.body() != nullptr))
+  if (saved.tissue.has_value() != (saved.is_prepared && made.asset()->options().soft))
     return damaged("an instance has tissue where there is none, or none where there is some");
   if (saved.is_prepared && (made.model()->undo_count() != saved.done.size() ||
                             made.model()->redo_count() != saved.undone.size()))
@@ -183,6 +186,22 @@ Status check_header(std::span<const std::byte> snapshot) {
   return {};
 }
 
+/// Each slot has an instance, or is listed once as free.
+Status check_slots(std::span<const Slot> slots, std::span<const Index> free) {
+  std::vector<bool> is_free(slots.size(), false);
+  for (const Index slot : free) {
+    if (slot >= slots.size() || slots[slot].actor || is_free[slot])
+      return Status::failure(StatusCode::malformed_file, slot,
+                             "the snapshot is damaged: slot %u is not free", slot);
+    is_free[slot] = true;
+  }
+  for (std::size_t i = 0; i < slots.size(); ++i)
+    if (!slots[i].actor && !is_free[i])
+      return Status::failure(StatusCode::malformed_file, static_cast<Index>(i),
+                             "the snapshot is damaged: slot %zu is neither free nor used", i);
+  return {};
+}
+
 /// Writes the checksum into a snapshot that is complete.
 void seal(std::vector<std::byte>& snapshot) {
   const std::uint64_t checksum = checksum_of(std::span(snapshot).subspan(kHeaderBytes));
@@ -219,17 +238,28 @@ Result<std::vector<std::byte>> Scene::save() const {
   }
 }
 
-Status Scene::restore(std::span<const std::byte> snapshot, scene::Assets assets,
-                      const RestoreOptions& options) {
-  const MemoryScope scope(state_->options.memory);
+struct LoadedSnapshot::Data {
+  std::vector<scene::Slot> slots;
+  std::vector<Index> free_slots;
+  double now = 0;
+  std::uint64_t frame = 0;
+  bool is_taken = false;
+};
+
+LoadedSnapshot::LoadedSnapshot(std::unique_ptr<Data> data) : data_(std::move(data)) {}
+LoadedSnapshot::~LoadedSnapshot() = default;
+LoadedSnapshot::LoadedSnapshot(LoadedSnapshot&&) noexcept = default;
+LoadedSnapshot& LoadedSnapshot::operator=(LoadedSnapshot&&) noexcept = default;
+
+Result<LoadedSnapshot> LoadedSnapshot::create(std::span<const std::byte> snapshot,
+                                              scene::Assets assets, const RestoreOptions& options) {
   try {
     if (Status status = scene::check_header(snapshot); !status) return status;
     scene::SnapshotReader reader(snapshot);
     std::array<std::uint64_t, scene::kHeaderBytes / 8> header{};
     std::uint32_t slots = 0;
-    double now = 0;
-    std::uint64_t frame = 0;
-    std::vector<Index> free_slots;
+    auto data = std::make_unique<Data>();
+    auto& [made, free_slots, now, frame, is_taken] = *data;
     reader(header, now, frame, free_slots, slots);
     if (!reader.has_failed() &&
         (!(now >= 0 && now <= scene::kMostSeconds) || slots > reader.remaining()))
@@ -238,51 +268,59 @@ Status Scene::restore(std::span<const std::byte> snapshot, scene::Assets assets,
     scene::RestoreBudget budget(options);
     if (Status status = budget.check_places(slots); !status) return status;
     const scene::AssetTable table(assets);
-    std::vector<scene::Slot> made(slots);
+    made.resize(slots);
     for (std::size_t i = 0; i < made.size(); ++i)
       if (Status status = scene::read_slot(reader, table, now, budget, made[i]); !status)
         return scene::in_slot(i, status);
     if (reader.remaining() > 0) reader.fail("there are more bytes than instances");
-    return reader.has_failed()
-               ? scene::broken(reader)
-               : state_->replace(std::move(made), std::move(free_slots), now, frame);
+    if (reader.has_failed()) return scene::broken(reader);
+    if (Status status = scene::check_slots(made, free_slots); !status) return status;
+    return LoadedSnapshot(std::move(data));
   } catch (const std::bad_alloc&) {
     return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
   }
 }
 
-/// Takes over slots that were read. @throws std::bad_alloc, with nothing changed
-Status Scene::State::replace(std::vector<scene::Slot> made, std::vector<Index> free, double time,
-                             std::uint64_t frame) {
-  Index instances = 0;
-  std::vector<bool> is_free(made.size(), false);
-  for (const Index slot : free) {
-    if (slot >= made.size() || made[slot].actor || is_free[slot])
-      return Status::failure(StatusCode::malformed_file, slot,
-                             "the snapshot is damaged: slot %u is not free", slot);
-    is_free[slot] = true;
+Status Scene::restore(std::span<const std::byte> snapshot, scene::Assets assets,
+                      const RestoreOptions& options) {
+  const MemoryScope scope(state_->options.memory);
+  Result<LoadedSnapshot> loaded = LoadedSnapshot::create(snapshot, assets, options);
+  return loaded ? restore(*loaded) : loaded.error();
+}
+
+Status Scene::restore(LoadedSnapshot& loaded) {
+  const MemoryScope scope(state_->options.memory);
+  LoadedSnapshot::Data* const data = loaded.data_.get();
+  if (data == nullptr || data->is_taken)
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "a scene has taken this snapshot already; load it again");
+  try {
+    std::vector<Index> all;
+    all.reserve(2 * data->slots.capacity() + 16);
+    data->free_slots.reserve(2 * data->slots.capacity() + 16);
+    state_->active = std::move(all);
+  } catch (const std::bad_alloc&) {
+    return Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");
   }
-  for (std::size_t i = 0; i < made.size(); ++i) {
-    if (!made[i].actor && !is_free[i])
-      return Status::failure(StatusCode::malformed_file, static_cast<Index>(i),
-                             "the snapshot is damaged: slot %zu is neither free nor used", i);
-    instances += made[i].actor != nullptr;
-  }
-  std::vector<Index> all;
-  all.reserve(2 * made.capacity() + 16);
-  free.reserve(2 * made.capacity() + 16);
-  slots = std::move(made);
-  free_slots = std::move(free);
-  active = std::move(all);
+  data->is_taken = true;
+  state_->slots.swap(data->slots);
+  state_->free_slots.swap(data->free_slots);
+  state_->start_anew(data->now, data->frame);
+  return {};
+}
+
+/// Goes on with other slots.
+void Scene::State::start_anew(double time, std::uint64_t frame) noexcept {
   hidden = 0;
   results.clear();
   abandoned.clear();
   drawn.clear();
-  stats = {.frame = frame, .instances = instances};
+  const auto instances =
+      std::ranges::count_if(slots, [](const scene::Slot& slot) { return slot.actor != nullptr; });
+  stats = {.frame = frame, .instances = static_cast<Index>(instances)};
   now = time;
   for (Index slot = 0; slot < slots.size(); ++slot)
     if (slots[slot].actor) wake(slot);
-  return {};
 }
 
 }  // namespace sunder

@@ -67,8 +67,7 @@ struct Scene::State {
     return status;
   }
 
-  Status replace(std::vector<scene::Slot> made, std::vector<Index> free, double time,
-                 std::uint64_t frame);
+  void start_anew(double time, std::uint64_t frame) noexcept;
   void take_commands();
   void share_budget();
   void run_actors();

@@ -25,18 +25,24 @@ SUNDER_INLINE void append_lane(const VertexDisplacements& displacements, std::ui
   const Mat3f* matrices = displacements.model_from_gradient.data();
   const float *a = matrices[by.particles[0]].data(), *b = matrices[by.particles[1]].data(),
               *c = matrices[by.particles[2]].data(), *d = matrices[by.particles[3]].data();
+  const Vec4f* of = displacements.displacements.data();
+  const float *p = of[by.particles[0]].data(), *q = of[by.particles[1]].data(),
+              *r = of[by.particles[2]].data(), *t = of[by.particles[3]].data();
+  const float* s = stored.of_weights[0].data();  // twelve numbers
+#if SUNDER_WIDE_SUMS
+  sum_nine(by.weights.data(), a, b, c, d, lanes.mean_first + 4 * lane, lanes.mean_second + 4 * lane,
+           lanes.mean_last + lane);
+  sum_columns(s, p, q, r, t, lanes.stretch[0] + 4 * lane, lanes.stretch[1] + 4 * lane,
+              lanes.stretch[2] + 4 * lane);
+#else
   Eigen::Map<Four>(lanes.mean_first + 4 * lane) = mean_of(by, a, b, c, d);
   Eigen::Map<Four>(lanes.mean_second + 4 * lane) = mean_of(by, a + 4, b + 4, c + 4, d + 4);
   lanes.mean_last[lane] =
       by.weights[0] * a[8] + by.weights[1] * b[8] + by.weights[2] * c[8] + by.weights[3] * d[8];
-
-  const Vec4f* of = displacements.displacements.data();
-  const FourOf u0(of[by.particles[0]].data()), u1(of[by.particles[1]].data()),
-      u2(of[by.particles[2]].data()), u3(of[by.particles[3]].data());
-  const float* s = stored.of_weights[0].data();  // twelve numbers
   for (std::uint32_t j = 0; j < 3; ++j)
     Eigen::Map<Four>(lanes.stretch[j] + 4 * lane) =
-        s[j] * u0 + s[3 + j] * u1 + s[6 + j] * u2 + s[9 + j] * u3;
+        s[j] * FourOf(p) + s[3 + j] * FourOf(q) + s[6 + j] * FourOf(r) + s[9 + j] * FourOf(t);
+#endif
 }
 
 SUNDER_INLINE Vector cross(const Vector& a, const Vector& b) {
@@ -90,10 +96,29 @@ SUNDER_INLINE void store_vector(const Vector& v, float* numbers) {
   store(v.z, numbers + 2 * kLanes);
 }
 
+inline float* floats_at(const StridedFloats<float>& array, std::uint32_t vertex) {
+  return reinterpret_cast<float*>(reinterpret_cast<unsigned char*>(array.data) +
+                                  array.stride * vertex);
+}
+
+/// How the directions of the vertices in the lanes are read and written: as a whole where vertices
+/// and numbers follow one another, or one by one.
+struct LaneAccess {
+  bool normals_together = false, tangents_together = false;
+};
+
+inline LaneAccess access_of(const VertexTarget& target, const DisplacedLanes& lanes) {
+  bool are_consecutive = lanes.count == kLanes;
+  for (std::uint32_t lane = 1; lane < kLanes; ++lane)
+    are_consecutive &= lanes.vertices[lane] == lanes.vertices[0] + lane;
+  return {are_consecutive && target.normals.stride == 3 * sizeof(float),
+          are_consecutive && target.tangents.stride == 4 * sizeof(float)};
+}
+
 /// Turns the normals and tangents of the vertices from `part` on.
 ///
 /// Normals are mapped by the cofactors of the map: exact, however far the surface is displaced.
-SUNDER_INLINE void turn_part(const VertexTarget& target, std::uint32_t part,
+SUNDER_INLINE void turn_part(const VertexTarget& target, std::uint32_t part, LaneAccess access,
                              DisplacedLanes& lanes) {
   const Linear map = map_around(lanes, part);
   Vector normal = {zero(), zero(), zero()};
@@ -101,24 +126,37 @@ SUNDER_INLINE void turn_part(const VertexTarget& target, std::uint32_t part,
     const Vector x = {map.xx, map.xy, map.xz}, y = {map.yx, map.yy, map.yz},
                  z = {map.zx, map.zy, map.zz};
     const Vector yz = cross(y, z), zx = cross(z, x), xy = cross(x, y);
-    const Vector old = load_vector(lanes.normals + part);
+    float* const together = floats_at(target.normals, lanes.vertices[part]);
+    Vector old;
+    if (access.normals_together)
+      load_interleaved(together, old.x, old.y, old.z);
+    else
+      old = load_vector(lanes.normals + part);
     const Linear cofactors = {yz.x, yz.y, yz.z, zx.x, zx.y, zx.z, xy.x, xy.y, xy.z};
     normal = at_length(transform(cofactors, old), old, target.unit_length);
-    store_vector(normal, lanes.normals + part);
+    if (access.normals_together)
+      store_interleaved<false>(normal.x, normal.y, normal.z, together);
+    else
+      store_vector(normal, lanes.normals + part);
   }
   if (target.tangents.data == nullptr) return;
-  const Vector old = load_vector(lanes.tangents + part);
+  float* const together = floats_at(target.tangents, lanes.vertices[part]);
+  Vector old;
+  V sign = zero();
+  if (access.tangents_together)
+    load_interleaved4(together, old.x, old.y, old.z, sign);
+  else
+    old = load_vector(lanes.tangents + part);
   Vector tangent = transform(map, old);
   const V square = dot(normal, normal);
   const V along = if_between(zero(), square, set(3e38f), div(dot(normal, tangent), square), zero());
   tangent = {sub(tangent.x, mul(along, normal.x)), sub(tangent.y, mul(along, normal.y)),
              sub(tangent.z, mul(along, normal.z))};
-  store_vector(at_length(tangent, old, target.unit_length), lanes.tangents + part);
-}
-
-inline float* floats_at(const StridedFloats<float>& array, std::uint32_t vertex) {
-  return reinterpret_cast<float*>(reinterpret_cast<unsigned char*>(array.data) +
-                                  array.stride * vertex);
+  tangent = at_length(tangent, old, target.unit_length);
+  if (access.tangents_together)
+    store_interleaved4(tangent.x, tangent.y, tangent.z, sign, together);
+  else
+    store_vector(tangent, lanes.tangents + part);
 }
 
 SUNDER_INLINE void gather_lanes(const StridedFloats<float>& from, const DisplacedLanes& lanes,
@@ -141,12 +179,15 @@ SUNDER_INLINE void scatter_lanes(const float* numbers, const DisplacedLanes& lan
 /// Turns the directions of the vertices that were appended, and empties `lanes`.
 inline void turn_lanes(const VertexTarget& target, DisplacedLanes& lanes) {
   if (lanes.count == 0) return;
-  if (target.normals.data != nullptr) gather_lanes(target.normals, lanes, lanes.normals);
-  if (target.tangents.data != nullptr) gather_lanes(target.tangents, lanes, lanes.tangents);
+  const LaneAccess access = access_of(target, lanes);
+  const bool has_normals = target.normals.data != nullptr && !access.normals_together,
+             has_tangents = target.tangents.data != nullptr && !access.tangents_together;
+  if (has_normals) gather_lanes(target.normals, lanes, lanes.normals);
+  if (has_tangents) gather_lanes(target.tangents, lanes, lanes.tangents);
   for (std::uint32_t part = 0; part < lanes.count; part += kVectorLanes)
-    turn_part(target, part, lanes);
-  if (target.normals.data != nullptr) scatter_lanes(lanes.normals, lanes, target.normals);
-  if (target.tangents.data != nullptr) scatter_lanes(lanes.tangents, lanes, target.tangents);
+    turn_part(target, part, access, lanes);
+  if (has_normals) scatter_lanes(lanes.normals, lanes, target.normals);
+  if (has_tangents) scatter_lanes(lanes.tangents, lanes, target.tangents);
   lanes.count = 0;
 }
 
@@ -165,7 +206,15 @@ inline void run_displacements(const VertexDisplacements& displacements, const Ve
   const VertexTarget to = target;
   const bool turns =
       !of.gradients.empty() && (to.normals.data != nullptr || to.tangents.data != nullptr);
+  // Rows of points are read ahead: those of neighbouring vertices need not be neighbours.
+  const auto expect = [&](std::uint32_t row) {
+    if (row >= of.influences.size()) return;
+    prefetch(&of.influences[row]);
+    if (turns) prefetch(&of.gradients[row]);
+  };
+  constexpr std::uint32_t kAhead = 16;
   for (std::uint32_t v = first; v < end; ++v) {
+    if (end - v > kAhead) expect(of.vertex_rows[v + kAhead]);
     const std::uint32_t row = of.vertex_rows[v];
     if (row >= of.influences.size() || !(of.influences[row].weights[0] > 0.0f)) continue;
     displace_position(of, of.influences[row], floats_at(to.positions, v));

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/internal/prefetch.h"
 #include "skinning/displace.h"
 #include "skinning/skin_work.h"
 
@@ -46,6 +47,17 @@ SUNDER_INLINE V negate_where_negative(V sign, V value) {
 }
 SUNDER_INLINE V if_between(V least, V value, V most, V inside, V outside) {
   return hn::IfThenElse(hn::And(hn::Lt(least, value), hn::Lt(value, most)), inside, outside);
+}
+
+/// Three numbers per lane.
+SUNDER_INLINE void load_interleaved(const float* numbers, V& x, V& y, V& z) {
+#if HWY_TARGET == HWY_SCALAR
+  x = set(numbers[0]);
+  y = set(numbers[1]);
+  z = set(numbers[2]);
+#else
+  hn::LoadInterleaved3(kTag, numbers, x, y, z);
+#endif
 }
 
 /// Four numbers per lane.
@@ -127,6 +139,45 @@ SUNDER_INLINE void prefetch_block(const float* numbers, std::uint32_t vectors) {
   for (std::uint32_t i = 0; i < vectors; ++i) hwy::Prefetch(numbers + kAhead + kLanes * i);
 }
 SUNDER_INLINE void finish_streaming() { hwy::FlushStream(); }
+
+#undef SUNDER_WIDE_SUMS
+#if HWY_TARGET == HWY_AVX3
+// What a displaced vertex needs of its particles, with vectors of sixteen numbers: the same
+// products and sums per number as with narrower ones.
+#define SUNDER_WIDE_SUMS 1
+
+/// sum_k w_k of nine numbers each, to places for four, four, and one.
+SUNDER_INLINE void sum_nine(const float* w, const float* a, const float* b, const float* c,
+                            const float* d, float* first, float* second, float* last) {
+  constexpr __mmask16 kNine = 0x1FF;
+  const auto part = [&](std::size_t k, const float* numbers) {
+    return mul(set(w[k]), V{_mm512_maskz_loadu_ps(kNine, numbers)});
+  };
+  const V sum = add(add(add(part(0, a), part(1, b)), part(2, c)), part(3, d));
+  _mm_storeu_ps(first, _mm512_castps512_ps128(sum.raw));
+  _mm_storeu_ps(second, _mm512_extractf32x4_ps(sum.raw, 1));
+  _mm_store_ss(last, _mm512_extractf32x4_ps(sum.raw, 2));
+}
+
+/// The columns of sum_k u_k s_k^T, of which s has three numbers for each k and u four.
+SUNDER_INLINE void sum_columns(const float* s, const float* u0, const float* u1, const float* u2,
+                               const float* u3, float* x, float* y, float* z) {
+  constexpr __mmask16 kTwelve = 0xFFF;
+  alignas(64) static constexpr std::int32_t kFirst[16] = {0, 0, 0, 0, 1,  1,  1,  1,
+                                                          2, 2, 2, 2, 15, 15, 15, 15};
+  const __m512 all = _mm512_maskz_loadu_ps(kTwelve, s);
+  const auto part = [&](std::int32_t k, const float* u) {
+    const __m512i places = _mm512_add_epi32(_mm512_load_si512(kFirst), _mm512_set1_epi32(3 * k));
+    return mul(V{_mm512_permutexvar_ps(places, all)}, V{_mm512_broadcast_f32x4(_mm_loadu_ps(u))});
+  };
+  const V sum = add(add(add(part(0, u0), part(1, u1)), part(2, u2)), part(3, u3));
+  _mm_storeu_ps(x, _mm512_castps512_ps128(sum.raw));
+  _mm_storeu_ps(y, _mm512_extractf32x4_ps(sum.raw, 1));
+  _mm_storeu_ps(z, _mm512_extractf32x4_ps(sum.raw, 2));
+}
+#else
+#define SUNDER_WIDE_SUMS 0
+#endif
 
 #include "skinning/kernel-inl.h"
 #include "skinning/kernel_displace-inl.h"

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/internal/prefetch.h"
 #include "skinning/displace.h"
 #include "skinning/skin_work.h"
 
@@ -31,6 +32,11 @@ V if_between(V least, V value, V most, V inside, V outside) {
   return least < value && value < most ? inside : outside;
 }
 
+void load_interleaved(const float* numbers, V& x, V& y, V& z) {
+  x = numbers[0];
+  y = numbers[1];
+  z = numbers[2];
+}
 void load_interleaved4(const float* numbers, V& x, V& y, V& z, V& w) {
   x = numbers[0];
   y = numbers[1];
@@ -50,6 +56,7 @@ void store_interleaved4(V x, V y, V z, V w, float* numbers) {
 void prefetch_block(const float*, std::uint32_t) {}
 void finish_streaming() {}
 
+#define SUNDER_WIDE_SUMS 0
 #include "skinning/kernel-inl.h"
 #include "skinning/kernel_displace-inl.h"
 

@@ -108,8 +108,12 @@ EngineInstance::SnapshotTimes EngineInstance::save_and_restore() {
   require(bytes.error(), "save");
   times.bytes = bytes->size();
   begin = thread_seconds();
-  require(scene_.restore(*bytes, std::span(&asset_, 1)), "restore");
-  times.restore = 1e3 * (thread_seconds() - begin);
+  auto loaded = LoadedSnapshot::create(*bytes, std::span(&asset_, 1));
+  require(loaded.error(), "load");
+  times.load = 1e3 * (thread_seconds() - begin);
+  begin = thread_seconds();
+  require(scene_.restore(*loaded), "restore");
+  times.exchange = 1e3 * (thread_seconds() - begin);
   seen_ = 0;
   return times;
 }

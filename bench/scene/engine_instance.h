@@ -42,10 +42,10 @@ class EngineInstance {
   EngineFrame frame();
   /// Runs what waits in the background.
   void finish_background() { background_->run(); }
-  /// Milliseconds of processor time that it takes to save the scene, and to restore it. The buffers
-  /// start anew.
+  /// Milliseconds of processor time that it takes to save the scene, and to restore it: to load the
+  /// snapshot, which any thread may do, and to exchange it. The buffers start anew.
   struct SnapshotTimes {
-    double save = 0, restore = 0;
+    double save = 0, load = 0, exchange = 0;
     std::size_t bytes = 0;
   };
   SnapshotTimes save_and_restore();

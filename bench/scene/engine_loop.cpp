@@ -108,7 +108,8 @@ EngineRun run_engine(int divisions, bool in_background, int repeats) {
       least.frames[f].microseconds =
           std::min(least.frames[f].microseconds, again.frames[f].microseconds);
     least.snapshot.save = std::min(least.snapshot.save, again.snapshot.save);
-    least.snapshot.restore = std::min(least.snapshot.restore, again.snapshot.restore);
+    least.snapshot.load = std::min(least.snapshot.load, again.snapshot.load);
+    least.snapshot.exchange = std::min(least.snapshot.exchange, again.snapshot.exchange);
     least.wrong_elements += again.wrong_elements;
   }
   return least;
@@ -139,8 +140,8 @@ void print_engine_table(const EngineRun& run) {
         1e-3 * at_share(bytes, 0.5), 1e-3 * bytes.back(), allocations.back(), overruns(72),
         overruns(90), overruns(120));
   }
-  std::printf("snapshot of %zu bytes: saved in %.2f ms, restored in %.2f ms\n", run.snapshot.bytes,
-              run.snapshot.save, run.snapshot.restore);
+  std::printf("snapshot of %zu bytes: saved in %.2f ms, loaded in %.2f ms, exchanged in %.3f ms\n",
+              run.snapshot.bytes, run.snapshot.save, run.snapshot.load, run.snapshot.exchange);
   std::printf("wrong vertices and triangles of the engine's buffers: %llu\n",
               static_cast<unsigned long long>(run.wrong_elements));
 }

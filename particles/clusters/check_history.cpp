@@ -1,6 +1,7 @@
 #include "particles/clusters/check_history.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace sunder::particles {
 namespace {
@@ -36,10 +37,11 @@ class UndoneStructure {
         slabs_(structure.points.slabs),
         lips_(structure.points.lip_points),
         counts_(structure.particles.size(), 0),
-        is_changed_(structure.particles.size(), 0) {
+        is_changed_(structure.particles.size(), 0),
+        is_touched_(structure.particles.size(), 0) {
     for (const Particle& particle : structure.particles) particles_.push_back(&particle);
-    for (const MembershipSlab& slab : slabs_) count(slab, 1);
-    touched_.clear();
+    for (const MembershipSlab& slab : slabs_)
+      for_each_particle(slab, [&](Index particle) { ++counts_[particle]; });
   }
 
   /// Checks all particles as they are now.
@@ -67,8 +69,10 @@ class UndoneStructure {
       is_changed_[of->first] = 1;
       particles_[of->first] = &of->second;
     }
-    for (const Index p : touched_)
+    for (const Index p : touched_) {
+      is_touched_[p] = 0;
       if (p < change.particles && !has_count(p)) return false;
+    }
     touched_.clear();
     const bool is_sound = std::ranges::all_of(newer, [&](const auto& of) {
       return of.first < change.particles && has_count(of.first) && are_mutual(of.first) &&
@@ -94,11 +98,16 @@ class UndoneStructure {
   }
 
  private:
+  template <class Visit>
+  void for_each_particle(const MembershipSlab& slab, Visit visit) const {
+    for (const ParticleMembership& of : structure_.points.memberships.at(slab.first, slab.count))
+      visit(of.particle);
+  }
   void count(const MembershipSlab& slab, int sign) {
-    for (const ParticleMembership& of : structure_.points.memberships.at(slab.first, slab.count)) {
-      counts_[of.particle] += sign;
-      touched_.push_back(of.particle);
-    }
+    for_each_particle(slab, [&](Index particle) {
+      counts_[particle] += sign;
+      if (std::exchange(is_touched_[particle], std::uint8_t{1}) == 0) touched_.push_back(particle);
+    });
   }
   [[nodiscard]] bool has_count(Index p) const {
     return counts_[p] == std::int64_t{particles_[p]->member_count};
@@ -131,7 +140,8 @@ class UndoneStructure {
   std::vector<const Particle*> particles_;
   std::vector<std::int64_t> counts_;      ///< Of members.
   std::vector<std::uint8_t> is_changed_;  ///< By the operation that is being undone.
-  std::vector<Index> touched_;            ///< Particles that were counted; repeated.
+  std::vector<std::uint8_t> is_touched_;  ///< Whether `touched_` lists it.
+  std::vector<Index> touched_;            ///< Particles that were counted since the last check.
 };
 
 }  // namespace

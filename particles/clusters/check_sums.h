@@ -10,8 +10,10 @@ namespace sunder::particles {
 /// Computes anew what operations keep up to date in a structure, and compares: the point of each
 /// vertex, which points belong to particles, the cells of particles, and the sums of their members.
 /// They differ by rounding only. The structure is complete; it is changed for the time of the call.
-/// O(faces + members x influences). @throws std::bad_alloc
+/// O(faces + members of particles with other members than before x influences).
+/// @throws std::bad_alloc
 /// @return the first fault.
-[[nodiscard]] Status check_sums(Structure& structure, const TornModel& model);
+[[nodiscard]] Status check_sums(Structure& structure, const Structure& decomposition,
+                                const TornModel& model);
 
 }  // namespace sunder::particles

@@ -1,6 +1,5 @@
 #include "particles/clusters/check_vertex_history.h"
 
-#include <map>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -20,13 +19,12 @@ class UndoneVertices {
       : model_(model),
         points_(structure.vertex_points.of_mesh),
         end_(model.surface().triangle_count()) {
-    for (const auto& of_mesh : points_) is_watched_.emplace_back(of_mesh.size());
+    for (const auto& of_mesh : points_) watched_.emplace_back(of_mesh.size(), kNone);
     for (Index t = histories.empty() ? end_ : histories[0].count; t < end_; ++t) watch(t, now(t));
     for (const tear::TriangleHistory& history : histories)
       for (const tear::FormerTriangle& former : history.former) watch(former.triangle, former);
     for (const Change& change : structure.tears.done)
-      for (const Change::OfVertex& of : change.changed_vertices)
-        is_watched_[of.mesh][of.vertex] = true;
+      for (const Change::OfVertex& of : change.changed_vertices) watch({of.mesh, of.vertex});
     for (Index t = 0; t < end_; ++t) count(t, now(t), 1);
   }
 
@@ -63,7 +61,13 @@ class UndoneVertices {
   }
   void watch(Index triangle, const tear::FormerTriangle& as) {
     const Index mesh = model_.surface().triangle(triangle).mesh;
-    for (const Index vertex : as.vertices) is_watched_[mesh][vertex] = true;
+    for (const Index vertex : as.vertices) watch({mesh, vertex});
+  }
+  void watch(const Vertex& vertex) {
+    Index& place = watched_[vertex.first][vertex.second];
+    if (place != kNone) return;
+    place = static_cast<Index>(first_use_.size());
+    first_use_.push_back(kNone);
   }
   /// A triangle becomes what it was before; null: it was not there.
   void exchange(Index triangle, const tear::FormerTriangle* before) {
@@ -79,24 +83,43 @@ class UndoneVertices {
     const Index mesh = model_.surface().triangle(triangle).mesh;
     for (std::size_t k = 0; k < 3; ++k) {
       const Vertex vertex(mesh, as.vertices[k]);
-      if (!is_watched_[mesh][vertex.second]) continue;
-      std::map<Index, int>& of_points = corners_[vertex];
-      if ((of_points[p[k]] += sign) == 0) of_points.erase(p[k]);
+      if (watched_[mesh][vertex.second] == kNone) continue;
+      use_of(vertex, p[k]).corners += sign;
       touched_.push_back(vertex);
     }
   }
+  /// How many corners of faces are a vertex at a point.
+  struct Use {
+    Index point = 0;
+    int corners = 0;
+    Index next = kNone;  ///< Of the same vertex, in `uses_`.
+  };
+  Use& use_of(const Vertex& vertex, Index point) {
+    Index* at = &first_use_[watched_[vertex.first][vertex.second]];
+    for (; *at != kNone; at = &uses_[*at].next)
+      if (uses_[*at].point == point) return uses_[*at];
+    *at = static_cast<Index>(uses_.size());
+    return uses_.emplace_back(Use{point, 0, kNone});
+  }
   [[nodiscard]] bool is_at_its_point(const Vertex& vertex) const {
     const Index point = points_[vertex.first][vertex.second];
-    const auto corners = corners_.find(vertex);
-    if (corners == corners_.end() || corners->second.empty()) return point == kNone;
-    return corners->second.contains(point);
+    bool is_used = false;
+    for (Index at = first_use_[watched_[vertex.first][vertex.second]]; at != kNone;
+         at = uses_[at].next) {
+      if (uses_[at].corners == 0) continue;
+      if (uses_[at].point == point) return true;
+      is_used = true;
+    }
+    return !is_used && point == kNone;
   }
 
   const TornModel& model_;
-  std::vector<std::vector<Index>> points_;          ///< Per mesh and vertex: VertexPoints::of_mesh.
-  std::vector<std::vector<bool>> is_watched_;       ///< Per mesh and vertex: whether it is counted.
-  Index end_;                                       ///< Triangles that there are.
-  std::map<Vertex, std::map<Index, int>> corners_;  ///< Per vertex and point, their number.
+  std::vector<std::vector<Index>> points_;  ///< Per mesh and vertex: VertexPoints::of_mesh.
+  /// Per mesh and vertex: its place in `first_use_`; kNone: it is not counted.
+  std::vector<std::vector<Index>> watched_;
+  Index end_;                     ///< Triangles that there are.
+  std::vector<Index> first_use_;  ///< Per vertex that is counted, in `uses_`; kNone: none.
+  std::vector<Use> uses_;
   std::unordered_map<Index, const tear::FormerTriangle*> former_;
   std::vector<Vertex> touched_;  ///< By the operation that is being undone; repeated.
 };

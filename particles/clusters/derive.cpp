@@ -15,8 +15,6 @@ class Derivation {
 
   void points_now() {
     const std::size_t known = decomposition_.points.count();
-    points_.influences = decomposition_.points.influences;
-    points_.owners = decomposition_.points.owners;
     points_.influences.resize(points_.count());
     points_.owners.resize(points_.count(), kNone);
     for (Index p = 0; p < points_.count(); ++p)

@@ -110,36 +110,27 @@ bool are_same(const MembershipSlab& a, const MembershipSlab& b) {
 bool are_same(Index a, Index b) { return a == b; }
 
 /// Describes an array by the entries that differ from an older one, and those that follow it.
+/// @param now  while reading, like `before`.
 template <class T>
 void describe_changed(Tape& tape, std::vector<T>& now, const std::vector<T>& before) {
   std::vector<Index> changed;
   for (Index i = 0; !tape.is_reading() && i < before.size(); ++i)
     if (!are_same(now[i], before[i])) changed.push_back(i);
   tape.all(changed);
-  if (tape.is_reading()) now = before;
   for (const Index i : changed) {
     tape.require(i < before.size(), "an entry of the decomposition does not exist");
     if (i < before.size()) describe(tape, now[i]);
   }
-  std::vector<T> more(now.begin() + static_cast<std::ptrdiff_t>(before.size()), now.end());
-  describe_each(tape, more);
-  if (tape.is_reading()) now.insert(now.end(), more.begin(), more.end());
-}
-
-/// Describes an array that only grows.
-template <class T, class Describe>
-void describe_tail(Tape& tape, std::vector<T>& now, const std::vector<T>& before,
-                   Describe describe_one) {
-  std::vector<T> more(now.begin() + static_cast<std::ptrdiff_t>(before.size()), now.end());
-  tape.each(more, describe_one);
-  if (!tape.is_reading()) return;
-  now.assign(before.begin(), before.end());
-  now.insert(now.end(), more.begin(), more.end());
+  tape.each(
+      now, [&](T& value) { describe(tape, value); }, before.size());
 }
 
 void describe_points(Tape& tape, PointTable& of, const PointTable& before) {
-  describe_tail(tape, of.positions, before.positions, [&](Vec3f& at) { tape(at); });
-  describe_tail(tape, of.vertices, before.vertices, [&](VertexRef& at) { describe(tape, at); });
+  // Of these two only the entries of new points are anything new.
+  tape.each(
+      of.positions, [&](Vec3f& at) { tape(at); }, before.positions.size());
+  tape.each(
+      of.vertices, [&](VertexRef& at) { describe(tape, at); }, before.vertices.size());
   describe_changed(tape, of.slabs, before.slabs);
   describe_changed(tape, of.lip_points, before.lip_points);
   // Those after the end are of operations that were undone.
@@ -148,10 +139,7 @@ void describe_points(Tape& tape, PointTable& of, const PointTable& before) {
       appended.begin(), appended.begin() + static_cast<std::ptrdiff_t>(of.ends.memberships -
                                                                        before.memberships.size()));
   describe_each(tape, more);
-  if (tape.is_reading()) {
-    of.memberships = before.memberships;
-    of.memberships.append(more);
-  }
+  if (tape.is_reading()) of.memberships.set_appended(std::move(more));
   std::vector<OnLip> older(of.older_lips.begin(),
                            of.older_lips.begin() + static_cast<std::ptrdiff_t>(of.ends.older_lips));
   describe_each(tape, older);
@@ -161,7 +149,6 @@ void describe_points(Tape& tape, PointTable& of, const PointTable& before) {
 }
 
 void describe_vertex_points(Tape& tape, VertexPoints& of, const VertexPoints& before) {
-  if (tape.is_reading()) of.of_mesh.resize(before.of_mesh.size());
   for (std::size_t m = 0; m < of.of_mesh.size(); ++m)
     describe_changed(tape, of.of_mesh[m], before.of_mesh[m]);
   struct Shared {

@@ -17,6 +17,7 @@ void describe(Tape& tape, Change& of);
 void describe(Tape& tape, Band& of);
 
 /// Describes a structure by its differences from the decomposition.
+/// @param of  while reading, a copy of it.
 void describe(Tape& tape, Structure& of, const Structure& decomposition);
 
 }  // namespace sunder::particles

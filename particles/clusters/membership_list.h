@@ -34,6 +34,8 @@ class MembershipList {
   void append(std::span<const ParticleMembership> more) {
     appended_.insert(appended_.end(), more.begin(), more.end());
   }
+  /// Replaces those that tears appended.
+  void set_appended(std::vector<ParticleMembership> all) { appended_ = std::move(all); }
   /// Drops memberships at the end. @param count  at least that of the decomposition.
   void shrink(std::size_t count) {
     appended_.resize(std::min(appended_.size(), count - decomposed_->size()));

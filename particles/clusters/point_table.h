@@ -64,6 +64,10 @@ struct PointTable : PointColumns {
   [[nodiscard]] std::span<const ParticleMembership> memberships_of(Index point) const {
     return memberships.at(slabs[point].first, slabs[point].count);
   }
+  /// Whether a point has the memberships that the decomposition gave it.
+  [[nodiscard]] bool has_decomposed(Index point) const {
+    return slabs[point].count > 0 && slabs[point].first < memberships.decomposed_count();
+  }
   [[nodiscard]] const ParticleMembership* find(Index point, Index particle) const {
     for (const ParticleMembership& membership : memberships_of(point))
       if (membership.particle == particle) return &membership;

@@ -72,14 +72,4 @@ void Structure::note_dirty_points() {
   journal.vertices.trim(most);
 }
 
-std::vector<Index> Structure::members_of(Index particle) const {
-  std::vector<Index> found;
-  for_each_candidate(particle, [&](Index point) {
-    if (points.find(point, particle) != nullptr) found.push_back(point);
-  });
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
-  return found;
-}
-
 }  // namespace sunder::particles

@@ -85,16 +85,24 @@ struct Structure {
   /// all points.
   void prepare_for_tears(Index triangles);
   void make_room(std::size_t point_count);
-  /// Points of a particle, ascending. O(members log members), allocates.
-  [[nodiscard]] std::vector<Index> members_of(Index particle) const;
   /// Calls visit(point) for all members of a particle, and for points that were members once.
   /// Points may be repeated.
   template <class Visit>
   void for_each_candidate(Index particle, Visit visit) const {
+    for_each_decomposed(particle, visit);
+    for_each_joined(particle, visit);
+  }
+  /// Those that the decomposition gave it.
+  template <class Visit>
+  void for_each_decomposed(Index particle, Visit visit) const {
     const auto& [first, of_all] = *members.decomposed;
     if (particle + 1 < first.size())
       for (Index m = first[particle]; m < first[particle + 1]; ++m)
         if (of_all[m] < points.count()) visit(of_all[m]);
+  }
+  /// Those that joined it later.
+  template <class Visit>
+  void for_each_joined(Index particle, Visit visit) const {
     for (const Index point : members.joined[particle])
       if (point < points.count()) visit(point);
   }

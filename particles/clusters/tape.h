@@ -87,20 +87,25 @@ class Tape {
   void all(std::vector<T>& values) {
     each(values, [&](T& value) { (*this)(value); });
   }
-  /// An array whose elements `describe` passes. It grows with what is read, not by what a number
-  /// claims.
+  /// An array whose elements `describe` passes, or those from `first` on: the array has those
+  /// before. It grows with what is read, not by what a number claims, unless its elements are about
+  /// as small as the numbers that are left for each.
   template <class T, class Describe>
-  void each(std::vector<T>& values, Describe describe) {
-    std::size_t count = size(values.size());
+  void each(std::vector<T>& values, Describe describe, std::size_t first = 0) {
+    std::size_t count = size(values.size() - first);
     if (!is_reading()) {
-      for (T& value : values) describe(value);
+      for (std::size_t i = first; i < values.size(); ++i) describe(values[i]);
       return;
     }
-    values.clear();
+    values.resize(first);
+    if (sizeof(T) <= kSmallBytes && values.capacity() < first + count)
+      values.reserve(first + count);
     for (; count > 0 && status_; --count) describe(values.emplace_back());
   }
 
  private:
+  static constexpr std::size_t kSmallBytes = 16;
+
   template <class T>
   void pass(std::vector<T> StateArrays::*array, std::size_t& at, T& value) {
     if (to_ != nullptr) {

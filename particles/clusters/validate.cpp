@@ -204,6 +204,11 @@ void Check::point(Index point, const MembershipSlab& of, const LipPoint& lip) {
   const Counts& in = levels_[since_.points[point]];
   slab(of, in);
   lip_point(lip, in);
+  const bool is_own = point < decomposition_.points.count() &&
+                      of.first == decomposition_.points.slabs[point].first &&
+                      of.count == decomposition_.points.slabs[point].count;
+  require(of.count == 0 || is_own || of.first >= structure_.points.memberships.decomposed_count(),
+          "a point has memberships that the decomposition gave another one", point);
   require(of.count == 0 || structure_.points.vertices[point].vertex != kNone,
           "a point without a vertex belongs to particles", point);
 }
@@ -367,7 +372,7 @@ Status validate(Structure& structure, const Structure& decomposition, const Torn
   derive(structure, decomposition);
   if (Status status = check_history(structure, decomposition); !status) return status;
   if (Status status = check_vertex_history(structure, decomposition, model); !status) return status;
-  return check_sums(structure, model);
+  return check_sums(structure, decomposition, model);
 }
 
 }  // namespace sunder::particles

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "particles/clusters/structure.h"
-#include "particles/motion/bits.h"
+#include "particles/internal/bits.h"
 
 namespace sunder::particles {
 

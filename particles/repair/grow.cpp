@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 
+#include "particles/clusters/member_search.h"
 #include "particles/repair/cover.h"
 
 namespace sunder::particles {
@@ -30,8 +31,8 @@ void begin_growing(StructureEdit& edit, Index particle) {
   Structure& structure = edit.structure();
   Index seed = structure.particles[particle].seed;
   if (edit.surface().point_corner[seed] == kNone) {
-    const std::vector<Index> members = structure.members_of(particle);
-    seed = nearest_member(edit, particle, members);
+    MemberSearch search(structure);
+    seed = nearest_member(edit, particle, search.members_of(particle));
     edit.move_seed(particle, seed);
   }
   SurfaceFront& front = structure.scratch.band_front;

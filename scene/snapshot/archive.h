@@ -7,6 +7,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <optional>
 #include <span>
 #include <string>
@@ -27,6 +28,12 @@ template <class Archive, class T>
 concept Listed = requires(Archive& archive, T& value) {
   transfer(archive, value);
 };
+
+/// Whether numbers of a type are in memory as in a snapshot, so that lists of them are copied.
+template <class T>
+inline constexpr bool kIsStoredAsBytes = (std::is_integral_v<T> ||
+                                          std::is_floating_point_v<T>)&&!std::is_same_v<T, bool> &&
+                                         std::endian::native == std::endian::little;
 
 /// Writes values as little-endian bytes. Members of structs are listed once, by transfer(), for
 /// writing and reading.
@@ -73,6 +80,11 @@ class SnapshotWriter {
   void write(std::vector<T>& values) {
     auto size = static_cast<std::uint32_t>(values.size());
     write(size);
+    if constexpr (kIsStoredAsBytes<T>) {
+      const auto* const stored = reinterpret_cast<const std::byte*>(values.data());
+      bytes_.insert(bytes_.end(), stored, stored + values.size() * sizeof(T));
+      return;
+    }
     for (T& value : values) write(value);
   }
   template <class T, std::size_t N>
@@ -188,7 +200,18 @@ class SnapshotReader {
   template <class T>
   void read(std::vector<T>& values) {
     values.clear();
-    for (std::size_t count = read_count(); count > 0; --count) {
+    std::size_t count = read_count();
+    if constexpr (kIsStoredAsBytes<T>) {
+      if (count <= remaining() / sizeof(T)) {
+        take_memory(count * sizeof(T));
+        if (has_failed() || count == 0) return;
+        values.resize(count);
+        std::memcpy(values.data(), bytes_.data() + offset_, count * sizeof(T));
+        offset_ += count * sizeof(T);
+        return;
+      }
+    }
+    for (; count > 0; --count) {
       take_memory(sizeof(T));
       if (has_failed()) return;
       read(values.emplace_back());

@@ -4,6 +4,8 @@
 #include <sunder/skinning/pose.h>
 
 #include <cstring>
+#include <optional>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -105,6 +107,12 @@ class Play {
   test::Random random_;
 };
 
+template <class T>
+void expect_same_bits(std::span<const T> found, std::span<const T> wanted) {
+  ASSERT_EQ(found.size(), wanted.size());
+  ASSERT_EQ(std::memcmp(found.data(), wanted.data(), wanted.size_bytes()), 0);
+}
+
 void expect_same(Scene& a, Scene& b, const std::vector<InstanceId>& ids) {
   ASSERT_EQ(a.instance_count(), b.instance_count());
   for (const InstanceId id : ids) {
@@ -117,10 +125,11 @@ void expect_same(Scene& a, Scene& b, const std::vector<InstanceId>& ids) {
       ASSERT_EQ(of_a.model()->redo_count(), of_b.model()->redo_count());
     }
     for (std::uint32_t m = 0; m < of_a.character().meshes.size(); ++m) {
-      const auto wanted = a.mesh(id, m).positions, found = b.mesh(id, m).positions;
-      if (found.empty()) continue;  // not visible since
-      ASSERT_EQ(found.size(), wanted.size());
-      ASSERT_EQ(std::memcmp(found.data(), wanted.data(), wanted.size_bytes()), 0);
+      const PosedMesh wanted = a.mesh(id, m), found = b.mesh(id, m);
+      if (found.positions.empty()) continue;  // not visible since
+      ASSERT_NO_FATAL_FAILURE(expect_same_bits(found.positions, wanted.positions));
+      ASSERT_NO_FATAL_FAILURE(expect_same_bits(found.normals, wanted.normals));
+      ASSERT_NO_FATAL_FAILURE(expect_same_bits(found.tangents, wanted.tangents));
     }
   }
 }
@@ -187,6 +196,29 @@ void expect_restored(Scene& scene, const Assets& assets, const std::vector<Insta
   ASSERT_TRUE(restored) << restored.text();
   ASSERT_TRUE(scene.update(kFrame) && other.update(kFrame));
   ASSERT_NO_FATAL_FAILURE(expect_same(scene, other, ids));
+}
+
+TEST(snapshot, a_snapshot_loaded_on_another_thread_is_exchanged_with_a_scene) {
+  const Assets assets = make_assets(true);
+  Scene scene = one_thread_scene(), other = one_thread_scene();
+  const InstanceId kept = value_of(scene.spawn(assets[0]));
+  PlaneCut cut;
+  cut.point = Vec3d(0, 1, 0);
+  cut.normal = Vec3d(0.1, 1, 0);
+  ASSERT_TRUE(scene.submit(kept, cut) && scene.update(kFrame));
+  const std::vector<std::byte> bytes = value_of(scene.save());
+  std::optional<LoadedSnapshot> loaded;
+  std::thread([&] { loaded.emplace(value_of(LoadedSnapshot::create(bytes, assets))); }).join();
+  ASSERT_TRUE(scene.update(kFrame));  // goes on meanwhile
+  (void)value_of(other.spawn(assets[1]));
+  ASSERT_TRUE(other.restore(*loaded));
+  EXPECT_EQ(value_of(other.save()), bytes);
+  EXPECT_EQ(other.restore(*loaded).code(), StatusCode::invalid_argument);
+  EXPECT_EQ(value_of(other.save()), bytes);
+  ASSERT_TRUE(other.update(kFrame));
+  ASSERT_NO_FATAL_FAILURE(expect_same(scene, other, {kept}));
+  loaded.reset();  // with what the scene had before
+  ASSERT_TRUE(other.update(kFrame));
 }
 
 TEST(snapshot, soft_and_rigid_assets_of_a_character_are_told_apart) {

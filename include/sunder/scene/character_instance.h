@@ -15,6 +15,10 @@
 
 namespace sunder {
 
+namespace scene {
+class InstanceReplay;
+}
+
 struct PieceTissue;
 
 /// A triangle to be written into an index buffer.
@@ -207,6 +211,7 @@ class SUNDER_API CharacterInstance {
   [[nodiscard]] bool needs_settling() const;
 
  private:
+  friend class scene::InstanceReplay;
   struct State;
   explicit CharacterInstance(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;

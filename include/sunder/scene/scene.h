@@ -69,6 +69,31 @@ struct RestoreOptions {
   std::size_t memory = std::size_t{1} << 31u;
 };
 
+/// The instances of a snapshot, read and checked on any thread, so that the frame that takes them
+/// over only exchanges them:
+///
+///   auto loaded = LoadedSnapshot::create(bytes, assets);  // on any thread
+///   if (loaded) status = scene.restore(*loaded);          // in a frame
+///
+/// They allocate from the resource of MemoryScope::current(), which has to be that of the scene.
+class SUNDER_API LoadedSnapshot {
+ public:
+  /// @return as Scene::restore() of the bytes. O(operations of all instances), allocates.
+  static Result<LoadedSnapshot> create(
+      std::span<const std::byte> snapshot,
+      std::span<const std::shared_ptr<const CharacterAsset>> assets,
+      const RestoreOptions& options = {});
+  ~LoadedSnapshot();
+  LoadedSnapshot(LoadedSnapshot&&) noexcept;
+  LoadedSnapshot& operator=(LoadedSnapshot&&) noexcept;
+
+ private:
+  friend class Scene;
+  struct Data;
+  explicit LoadedSnapshot(std::unique_ptr<Data> data);
+  std::unique_ptr<Data> data_;  ///< Null: a scene has taken it.
+};
+
 /// Many characters, updated once per frame: what changed is animated, torn, stepped and posed; what
 /// did not is not even looked at. Cost is in proportion to the instances that are active.
 ///
@@ -173,6 +198,10 @@ class SUNDER_API Scene {
   Status restore(std::span<const std::byte> snapshot,
                  std::span<const std::shared_ptr<const CharacterAsset>> assets,
                  const RestoreOptions& options = {});
+  /// The same with a snapshot that was read before, which holds the former instances afterwards:
+  /// destroy it on any thread.
+  /// @return invalid_argument if a scene has taken it already. O(instances).
+  Status restore(LoadedSnapshot& loaded);
 
   struct Memory {
     std::size_t assets = 0;     ///< Shared structures, each counted once.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 #include <vector>
 
 namespace sunder::particles {
@@ -26,6 +27,15 @@ class Bits {
     const std::uint64_t before = word, bit = std::uint64_t{1} << (i % 64);
     word = value ? before | bit : before & ~bit;
     return word != before;
+  }
+  /// Sets all bits to 0, and calls visit(i) for each one of an element in [first, last], ascending;
+  /// the others are 0. O(last - first).
+  template <class Visit>
+  void take_ones(Index first, Index last, Visit visit) {
+    if (first > last) return;
+    for (std::size_t w = first / 64; w <= last / 64; ++w)
+      for (std::uint64_t word = std::exchange(words_[w], 0); word != 0; word &= word - 1)
+        visit(static_cast<Index>(64 * w) + static_cast<Index>(std::countr_zero(word)));
   }
   /// Calls visit(first, end) for each run of ones, ascending. O(elements / 64 + runs).
   template <class Visit>

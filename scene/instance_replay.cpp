@@ -1,0 +1,20 @@
+#include "scene/instance_replay.h"
+
+#include "scene/instance_state.h"
+
+namespace sunder::scene {
+
+Status InstanceReplay::begin() {
+  state_.needs_draw = true;
+  if (Status status = state_.make_torn({}); !status) return status;
+  return state_.prepare_model();
+}
+
+Status InstanceReplay::apply(const Operation& operation) {
+  const Result<TearReport> report = apply_operation(state_.torn->model, operation);
+  return report ? Status() : report.error();
+}
+
+Status InstanceReplay::undo() { return state_.torn->model.undo(); }
+
+}  // namespace sunder::scene
