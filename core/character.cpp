@@ -187,11 +187,14 @@ Status validate_mesh(const Character& character, Index index) {
                                        character.skins[mesh.skin].bones.size());
       !status)
     return status;
-  if (mesh.first_morph_weight + mesh.morph_targets.size() > character.rest_morph_weights.size())
+  // Sums and products are of 64 bits where std::size_t is not (WebAssembly).
+  const std::uint64_t last_weight =
+      std::uint64_t{mesh.first_morph_weight} + mesh.morph_targets.size();
+  if (last_weight > character.rest_morph_weights.size())
     return Status::failure(StatusCode::index_out_of_range, index,
-                           "mesh %u '%.60s': uses morph weights [%u, %zu); the character has %zu",
+                           "mesh %u '%.60s': uses morph weights [%u, %llu); the character has %zu",
                            index, place.name, mesh.first_morph_weight,
-                           mesh.first_morph_weight + mesh.morph_targets.size(),
+                           static_cast<unsigned long long>(last_weight),
                            character.rest_morph_weights.size());
   if (mesh.triangle_submesh.size() != mesh.triangles.size())
     return Status::failure(StatusCode::size_mismatch, index,
@@ -222,14 +225,14 @@ Status validate_channel(const Character& character, const Channel& channel, cons
   const bool morphs = channel.target == ChannelTarget::morph_weights;
   const std::size_t target_count =
       morphs ? character.rest_morph_weights.size() : character.skeleton.bones.size();
-  const std::size_t last = channel.index + static_cast<std::size_t>(morphs ? channel.width : 1);
+  const std::uint64_t last = std::uint64_t{channel.index} + (morphs ? channel.width : 1);
   if (channel.width == 0 || last > target_count)
     return fail(StatusCode::index_out_of_range, "its target does not exist");
   if (!morphs && channel.width != (channel.target == ChannelTarget::rotation ? 4u : 3u))
     return fail(StatusCode::size_mismatch, "wrong number of floats per key");
   if (channel.times.empty()) return fail(StatusCode::empty_input, "it has no key");
-  const std::size_t values_per_key = channel.interpolation == Interpolation::cubic_spline ? 3 : 1;
-  if (channel.values.size() != channel.times.size() * channel.width * values_per_key)
+  const std::uint64_t values_per_key = channel.interpolation == Interpolation::cubic_spline ? 3 : 1;
+  if (channel.values.size() != std::uint64_t{channel.times.size()} * channel.width * values_per_key)
     return fail(StatusCode::size_mismatch,
                 "the number of values does not match the number of times");
   float previous = -1.0f;

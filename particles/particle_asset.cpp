@@ -15,10 +15,12 @@
 namespace sunder {
 namespace {
 
+/// @param edge    mean length of the edges.
 /// @param report  its range in metres is written.
-Status find_range(const DecompositionOptions& options, double diagonal,
+Status find_range(const DecompositionOptions& options, double diagonal, double edge,
                   DecompositionReport& report) {
-  if (!(diagonal > 0))
+  // Edges below 1e-22 m have no length: its square is 0 in single precision.
+  if (!(diagonal > 0 && edge > 0))
     return Status::failure(StatusCode::empty_input, kNone,
                            "the model has no face that can be divided into particles");
   report.range = options.is_fraction ? options.range * diagonal : options.range;
@@ -47,7 +49,8 @@ Result<std::unique_ptr<Structure>> decompose_model(const TornModel& model, const
     structure->character.morph_weight_count = model.character().rest_morph_weights.size();
     if (Status status = check_pose(structure->character, pose); !status) return status;
     read_model(model, pose, *structure);
-    if (Status status = find_range(options, diagonal_of(*structure, model), structure->report);
+    if (Status status = find_range(options, diagonal_of(*structure, model),
+                                   double{structure->character.edge_length}, structure->report);
         !status)
       return status;
     decompose(model, options, *structure);

@@ -9,10 +9,12 @@ namespace sunder {
 
 Status deform_mesh(const Mesh& mesh, std::span<const Affine3f> model_from_bind,
                    std::span<const float> morph_weights, DeformedMesh& out) {
-  if (mesh.first_morph_weight + mesh.morph_targets.size() > morph_weights.size())
+  const std::uint64_t last_weight =
+      std::uint64_t{mesh.first_morph_weight} + mesh.morph_targets.size();
+  if (last_weight > morph_weights.size())
     return Status::failure(StatusCode::size_mismatch, kNone,
-                           "mesh '%.80s' uses morph weights up to %zu; the pose has %zu",
-                           mesh.name.c_str(), mesh.first_morph_weight + mesh.morph_targets.size(),
+                           "mesh '%.80s' uses morph weights up to %llu; the pose has %zu",
+                           mesh.name.c_str(), static_cast<unsigned long long>(last_weight),
                            morph_weights.size());
   for (const Influence& influence : mesh.weights.influences)
     if (influence.slot >= model_from_bind.size())

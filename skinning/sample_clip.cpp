@@ -1,6 +1,7 @@
 #include <sunder/skinning/pose.h>
 
 #include <cmath>
+#include <cstdint>
 
 #include "core/internal/out_of_memory.h"
 #include "skinning/internal/sample_channel.h"
@@ -24,7 +25,7 @@ Status sample_clip(const Clip& clip, double time, Pose& pose) {
   for (std::uint32_t i = 0; i < clip.channels.size(); ++i) {
     const Channel& channel = clip.channels[i];
     const bool morphs = channel.target == ChannelTarget::morph_weights;
-    const std::size_t last = channel.index + static_cast<std::size_t>(morphs ? channel.width : 1);
+    const std::uint64_t last = std::uint64_t{channel.index} + (morphs ? channel.width : 1);
     if (last > (morphs ? pose.morph_weights.size() : pose.parent_from_bone.size()))
       return Status::failure(
           StatusCode::size_mismatch, i,

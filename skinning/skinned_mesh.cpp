@@ -83,10 +83,12 @@ Status check_target(const Blocks& blocks, const PaletteData& palette, const Vert
     return Status::failure(StatusCode::size_mismatch, kNone,
                            "the palette has %zu slots, the mesh was created for %zu", palette.slots,
                            blocks.layout.slot_count);
-  if (palette.morph_weights.size() < blocks.layout.first_morph_weight + blocks.layout.morph_count)
+  const std::uint64_t last_weight =
+      std::uint64_t{blocks.layout.first_morph_weight} + blocks.layout.morph_count;
+  if (palette.morph_weights.size() < last_weight)
     return Status::failure(StatusCode::size_mismatch, kNone,
-                           "the mesh uses morph weights up to %u; the palette has %zu",
-                           blocks.layout.first_morph_weight + blocks.layout.morph_count,
+                           "the mesh uses morph weights up to %llu; the palette has %zu",
+                           static_cast<unsigned long long>(last_weight),
                            palette.morph_weights.size());
   if (palette.revision == 0)
     return Status::failure(StatusCode::invalid_argument, kNone,

@@ -82,6 +82,20 @@ INSTANTIATE_TEST_SUITE_P(
                 [](Character& c) { c.meshes[0].morph_targets[0].position_deltas.pop_back(); }},
         BadCase{"morph_without_weight", StatusCode::index_out_of_range,
                 [](Character& c) { c.rest_morph_weights.clear(); }},
+        BadCase{"morph_weights_beyond_32_bits", StatusCode::index_out_of_range,
+                [](Character& c) { c.meshes[0].first_morph_weight = kNone; }},
+        BadCase{"channel_beyond_32_bits", StatusCode::index_out_of_range,
+                [](Character& c) { c.clips[0].channels[0].index = kNone; }},
+        BadCase{"key_values_beyond_32_bits", StatusCode::size_mismatch,
+                [](Character& c) {
+                  Channel& channel = c.clips[0].channels[0];
+                  channel = Channel();
+                  channel.target = ChannelTarget::morph_weights;
+                  channel.width = 1u << 16;
+                  c.rest_morph_weights.resize(channel.width);
+                  for (std::uint32_t i = 0; i < 1u << 16; ++i)
+                    channel.times.push_back(static_cast<float>(i));
+                }},
         BadCase{"keys_not_increasing", StatusCode::invalid_argument,
                 [](Character& c) { c.clips[0].channels[0].times[1] = 0.0f; }},
         BadCase{"too_few_key_values", StatusCode::size_mismatch,

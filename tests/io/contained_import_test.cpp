@@ -155,6 +155,20 @@ TEST_F(ContainedImport, MisbehaviourIsAnErrorWithACause) {
   }
 }
 
+// A file of 5 MiB raises the memory of an import from 256 to 320 MiB, and that of its reply to the
+// half. If it counted again with each of a hundred requests, both would grow to 4 GiB.
+TEST_F(ContainedImport, AFileThatIsOpenedAgainRaisesNoLimit) {
+  const LeavesNothingBehind check;
+  folder_.write("side.bin", std::string(5u << 20, 'x'));
+  const Status of_memory = import_by("opens_again_for_memory");
+  const long limit = std::strtol(of_memory.text().data(), nullptr, 10);
+  EXPECT_GE(limit, 1024) << of_memory.text();
+  EXPECT_LE(limit, 1024 + 65) << of_memory.text();
+  const Status of_reply = import_by("opens_again_for_reply");
+  EXPECT_EQ(of_reply.code(), StatusCode::limit_exceeded) << of_reply.text();
+  EXPECT_TRUE(contains(of_reply.text(), "more than 1677")) << of_reply.text();
+}
+
 TEST_F(ContainedImport, AHangEndsAtTheTimeLimit) {
   const LeavesNothingBehind check;
   for (const char* const how : {"hang", "never_ready", "unread_answers"}) {

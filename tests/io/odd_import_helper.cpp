@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstring>
 #include <string>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <unistd.h>
 #include <vector>
@@ -37,6 +38,29 @@ void reply(const std::string& head, const std::string& body) {
 void ask(const std::string& reference) {
   put(Request{.kind = RequestKind::open, .first = reference.size()});
   put(reference);
+}
+
+/// Opens the same file again and again, as if each of its copies were a file of the model.
+void open_again(const std::string& reference) {
+  for (int i = 0; i < 100; ++i) {
+    ask(reference);
+    Answer answer;
+    // One that succeeded has no text.
+    if (recv(kSocket, &answer, sizeof answer, MSG_WAITALL) != sizeof answer || answer.code != 0)
+      _exit(1);
+  }
+}
+
+/// The limit of memory that the caller may raise, in MiB.
+rlim_t memory_limit() {
+  rlimit limit{};
+  getrlimit(RLIMIT_AS, &limit);
+  return limit.rlim_cur >> 20;
+}
+
+void limit_memory() {
+  const rlimit limit{rlim_t{1024} << 20, rlim_t{1} << 40};
+  setrlimit(RLIMIT_AS, &limit);
 }
 
 const std::string kGoodHead =
@@ -88,6 +112,17 @@ void misbehave(const std::string& how) {
   if (how == "no_glb") reply(kGoodHead, "not a GLB");
   if (how == "good_without_filter") reply(kGoodHead, "not read by import_as_glb()");
   if (how == "empty_glb") reply(kGoodHead, "");
+  if (how == "opens_again_for_memory") {
+    limit_memory();
+    open_again("side.bin");
+    reply(R"({"code":1,"index":0,"text":")" + std::to_string(memory_limit()) +
+              R"( MiB","format":"F","space":"S","notes":[]})",
+          "");
+  }
+  if (how == "opens_again_for_reply") {
+    open_again("side.bin");
+    reply(kGoodHead, std::string(200u << 20, 'x'));
+  }
   if (how == "unknown_request") put(Request{.kind = RequestKind{77}, .first = 10});
   if (how == "long_reference") ask(std::string(100'000, 'a'));
   if (how == "unread_answers")
@@ -102,8 +137,10 @@ void misbehave(const std::string& how) {
 int main(int, char** arguments) {
   const std::string path = arguments[0];
   const std::string how = path.substr(path.rfind('/') + 1);
-  std::vector<char> job(4096);
-  if (recv(kSocket, job.data(), job.size(), 0) <= 0) return 1;
+  Job job;
+  if (recv(kSocket, &job, sizeof job, MSG_WAITALL) != sizeof job) return 1;
+  std::vector<char> name(job.name_bytes);
+  if (recv(kSocket, name.data(), name.size(), MSG_WAITALL) <= 0) return 1;
   if (how == "not_ready") {
     put(std::string(1000, 'x'));
     return 0;

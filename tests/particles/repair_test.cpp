@@ -6,6 +6,7 @@
 #include <sunder/tear/torn_model.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -536,6 +537,27 @@ TEST(Follow, of_a_call_that_did_nothing_changes_no_influence) {
   ASSERT_TRUE(followed.model.tear(pose, along({{2.2, 0.5}, {2.7, 0.52}}), {}, &change));  // misses
   ASSERT_TRUE(followed.set.follow(followed.model, {&change, 1}));
   EXPECT_EQ(difference(state_of(followed.model, followed.set, pose), before), "");
+}
+
+// Squares of lengths underflow and overflow in single precision. Whatever a size leads to, it is a
+// status.
+TEST(Follow, tears_of_extreme_sizes) {
+  for (int tenths = -260; tenths < 220; tenths += tenths < -200 ? 1 : 5) {
+    SCOPED_TRACE(tenths);
+    const double size = std::pow(10.0, 0.1 * tenths);
+    TornModel model = make_model(test::make_sheet(8, static_cast<float>(size)));
+    const ModelPose pose = *bind_pose(model.source());
+    auto set = ParticleSet::create(model, pose, {0.2});
+    if (!set) continue;
+    ChangeRecord change;
+    const auto blade = [&](double x, double y) {
+      return Blade{Vec3d(x, y, 1) * size, Vec3d(x, y, -1) * size};
+    };
+    if (!model.tear(pose, std::vector{blade(0.2, 0.45), blade(0.7, 0.52)}, {}, &change)) continue;
+    if (!set->follow(model, {&change, 1})) continue;
+    settle(model, *set);
+    EXPECT_GT(set->particle_count(), 0u);
+  }
 }
 
 TEST(Settle, leaves_no_particle_in_two_pieces) {

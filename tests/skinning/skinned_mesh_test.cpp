@@ -483,6 +483,10 @@ TEST(SkinnedMesh, refuses_mismatching_arguments_and_writes_nothing) {
   EXPECT_EQ(
       code_of(palette_of(test::in_float(test::random_palette(random, 6)), {}), posed.target()),
       StatusCode::size_mismatch);
+  Mesh beyond = mesh;  // whose first weight and their number add to zero in 32 bits
+  beyond.first_morph_weight = 0u - static_cast<std::uint32_t>(mesh.morph_targets.size());
+  PosedBuffer buffer(posed.target());
+  EXPECT_EQ(skinned_mesh(beyond, 6).deform(palette, buffer).code(), StatusCode::size_mismatch);
   EXPECT_EQ(code_of(*BonePalette::create(6, 1), posed.target()), StatusCode::invalid_argument);
   VertexTarget target = posed.target();
   target.vertex_count = 49;

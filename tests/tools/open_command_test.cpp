@@ -331,6 +331,50 @@ TEST_F(OpenCommand, without_a_wound_the_file_is_as_without_the_option_and_that_i
   EXPECT_EQ(bytes("missed.glb"), bytes("cactus.glb"));
 }
 
+/// A tear across the front of a cactus that was scaled.
+std::string tear_at_scale(double scale) {
+  json stroke = json::array();
+  for (const auto& [x, y] : {std::pair(-0.1, 1.15), std::pair(-0.12, 1.25), std::pair(-0.1, 1.4)})
+    stroke.push_back(
+        {{"base", {x * scale, y * scale, 2 * scale}}, {"tip", {x * scale, y * scale, 0}}});
+  return json{{"sunder_operations", 1}, {"operations", {{{"op", "tear"}, {"stroke", stroke}}}}}
+      .dump();
+}
+
+/// The cactus at rest, some times as large.
+Character scaled_cactus(float scale) {
+  Character cactus = tools::make_cactus();
+  cactus.clips.clear();
+  for (Mesh& mesh : cactus.meshes) {
+    for (Vec3f& at : mesh.positions) at *= scale;
+    for (MorphTarget& target : mesh.morph_targets)
+      for (Vec3f& delta : target.position_deltas) delta *= scale;
+  }
+  for (Bone& bone : cactus.skeleton.bones) bone.rest.translation *= scale;
+  for (Skin& skin : cactus.skins)
+    for (Affine3f& matrix : skin.bone_from_bind) matrix.translation() *= scale;
+  return cactus;
+}
+
+// What cannot be opened for its size is an error of the input (2), never one of the command (5).
+TEST_F(OpenCommand, a_size_that_cannot_be_opened_is_no_internal_error) {
+  for (const double scale : {1e-24, 3e-23, 1e-22, 1e-20, 1e8, 1e10, 1e12, 1e16, 1e24}) {
+    SCOPED_TRACE(scale);
+    ASSERT_TRUE(save_glb(path("scaled.glb"), scaled_cactus(static_cast<float>(scale))));
+    std::vector<std::string> arguments = {"tear",  path("scaled.glb"),
+                                          "--ops", write("scaled.json", tear_at_scale(scale)),
+                                          "-o",    path("scaled_torn.glb")};
+    const CommandResult closed = run_sunder(arguments);
+    EXPECT_TRUE(closed.exit_code == 0 || closed.exit_code == 1) << closed.err;
+    arguments.push_back("--open");
+    const CommandResult open = run_sunder(arguments);
+    EXPECT_TRUE(open.exit_code >= 0 && open.exit_code <= 2) << open.exit_code << ": " << open.err;
+    if (open.exit_code == 2) {
+      EXPECT_THAT(open.err, HasSubstr("--open: "));
+    }
+  }
+}
+
 TEST_F(OpenCommand, an_unknown_form_is_refused) {
   const CommandResult result = run_sunder(
       {"tear", model(), "--ops", write("one.json", kOneTear), "-o", path("x.glb"), "--open=wide"});

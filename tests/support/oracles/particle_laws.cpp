@@ -90,7 +90,9 @@ void check_owner(const ParticleSet& set, std::uint32_t point, std::vector<std::s
     nearest = std::min(nearest, distance);
     if (of.particle == owner) own = distance;
   }
-  if (set.memberships(point).empty() ? owner != kNone : !(own <= nearest * (1 + 1e-6)))
+  // Distances below the least float of full precision are equal.
+  constexpr double kLeast = std::numeric_limits<float>::min();
+  if (set.memberships(point).empty() ? owner != kNone : !(own <= nearest * (1 + 1e-6) + kLeast))
     faults.push_back(say("point ", point, " is in the cell of particle ", owner, " at ", own,
                          ", the nearest is at ", nearest));
 }
