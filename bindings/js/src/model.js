@@ -1,0 +1,98 @@
+// A rigged model, and what its instances share.
+import { sunder_asset_options, sunder_bone, sunder_clip, sunder_load_options, sunder_mesh, sunder_note, sunder_save_options, sunder_transform } from '../generated/calls.js';
+import { characterData } from './character_arrays.js';
+import { library } from './library.js';
+import { takeBytes } from './made_bytes.js';
+import { materialOf } from './materials.js';
+import { MeshData } from './mesh_data.js';
+import { bytesOf, fieldsOf } from './options.js';
+import { Owned } from './owned.js';
+import { invalidArgument } from './sunder_error.js';
+
+const NOTES = ['information', 'repaired', 'dropped', 'warning'];
+
+/** `soft`: false, true, a material's name or an object; `materials`: several of them. */
+function assetFields(calls, { soft = true, material, materials, ...others }) {
+  const list = materials ?? [material ?? (typeof soft === 'string' || typeof soft === 'object' ? soft : null)].filter(Boolean);
+  const fields = fieldsOf(sunder_asset_options, others);
+  fields.is_soft = soft ? 1 : 0;
+  if (list.length) Object.assign(fields, { materials: list.map((one) => materialOf(calls, one)), material_count: list.length });
+  return fields;
+}
+
+export class Model extends Owned {
+  #calls;
+  #asset = 0;
+
+  constructor(calls, character, options) {
+    const handles = { asset: 0 };
+    super(character, () => {
+      if (handles.asset) calls.sunder_destroy_asset(handles.asset);
+      calls.sunder_destroy_character(character);
+      calls.memory.detachViews();
+    });
+    this.#calls = calls;
+    try {
+      handles.asset = this.#asset = calls.sunder_create_asset(character, assetFields(calls, options));
+    } catch (error) {
+      this.dispose();
+      throw error;
+    }
+  }
+
+  static fromGLB(bytes, { strict = false, maximumBytes, maximumMemory, ...options } = {}) {
+    const calls = library();
+    return new Model(calls, calls.sunder_load_glb(bytesOf(bytes), fieldsOf(sunder_load_options, { isStrict: strict, maximumBytes, maximumMemory })), options);
+  }
+  static fromArrays(data, options = {}) {
+    const calls = library();
+    return new Model(calls, calls.sunder_create_character(characterData(data)), options);
+  }
+
+  get asset() { return this.handle && this.#asset; }
+  get #data() { return this.#calls.sunder_get_character(this.handle); }
+
+  get name() { return this.#calls.memory.text(this.#data.name); }
+  get meshCount() { return this.#data.mesh_count; }
+  /** { name, parent, rest }. */
+  get bones() {
+    const { bones, bone_count } = this.#data, { memory } = this.#calls;
+    return memory.readStructs(sunder_bone, bones, bone_count).map(({ name, parent, rest }) => ({
+      name: memory.text(name), parent: parent === 0xFFFFFFFF ? null : parent, rest }));
+  }
+  /** { name, duration }. */
+  get clips() {
+    const { clips, clip_count } = this.#data, { memory } = this.#calls;
+    return memory.readStructs(sunder_clip, clips, clip_count).map(({ name, duration }) => ({ name: memory.text(name), duration }));
+  }
+  /** What loading repaired, dropped or tells: { kind, place, text, count }. */
+  get notes() {
+    const { memory } = this.#calls;
+    const { notes, count } = this.#calls.sunder_get_notes(this.handle);
+    return memory.readStructs(sunder_note, notes, count).map((note) => ({
+      kind: NOTES[note.kind], place: memory.text(note.place), text: memory.text(note.text), count: note.count }));
+  }
+  /** A mesh before any tear, in bind space. */
+  mesh(index) {
+    const { meshes, mesh_count } = this.#data, { memory } = this.#calls;
+    if (!(index >= 0 && index < mesh_count)) throw invalidArgument(`mesh ${index} does not exist; the model has ${mesh_count}`);
+    return new MeshData(memory, sunder_mesh.read(memory, meshes + index * sunder_mesh.size), () => this.handle);
+  }
+  bone(name) { return this.#calls.sunder_find_bone(this.handle, name); }
+  clip(name) { return typeof name === 'number' ? name : this.#calls.sunder_find_clip(this.handle, name); }
+
+  /** model_from_bone of each bone, 12 numbers each, with the transforms of a clip at a time; without a clip, those of rest. */
+  matrices(clip = null, seconds = 0) {
+    const calls = this.#calls, m = calls.memory, mark = m.mark(), count = this.#data.bone_count;
+    try {
+      const transforms = clip === null ? 0 : m.room(count * sunder_transform.size), to = m.room(96 * count);
+      if (clip !== null) calls.sunder_sample_clip(this.handle, this.clip(clip), seconds, transforms, 0);
+      calls.sunder_compute_matrices(this.handle, transforms, to);
+      return m.viewOf(Float64Array, to, 12 * count).slice();
+    } finally {
+      m.release(mark);
+    }
+  }
+
+  toGLB(options) { return takeBytes(this.#calls, this.#calls.sunder_save_glb(this.handle, fieldsOf(sunder_save_options, options))); }
+}

@@ -1,0 +1,45 @@
+// The front door: loads the library when it is first needed.
+import { SUNDER_FEATURE_HULLS, SUNDER_FEATURE_THREADS } from '../generated/calls.js';
+import { initialise, library } from './library.js';
+import { MATERIAL_NAMES, describeMaterial, materialOf } from './materials.js';
+import { Model } from './model.js';
+import { Scene } from './scene.js';
+
+export const Sunder = {
+  /** Loads the library; load(), fromArrays() and createScene() do it too. @param source  bytes, module or response of sunder.wasm, or their promise */
+  async init(source) { await initialise(source); },
+  /** A model from a GLB, or from text glTF that refers to no other file. */
+  async load(bytes, options) {
+    await initialise();
+    return Model.fromGLB(bytes, options);
+  },
+  /** A model from arrays. */
+  async fromArrays(data, options) {
+    await initialise();
+    return Model.fromArrays(data, options);
+  },
+  async createScene(options) {
+    await initialise();
+    return new Scene(options);
+  },
+  get version() {
+    const version = library().sunder_version();
+    return [version >> 16, (version >> 8) & 255, version & 255].join('.');
+  },
+  get features() {
+    const features = library().sunder_features();
+    return { threads: (features & SUNDER_FEATURE_THREADS) !== 0, hulls: (features & SUNDER_FEATURE_HULLS) !== 0 };
+  },
+  materialNames: MATERIAL_NAMES,
+  /** The numbers of a material of tissue. */
+  material(name) { return describeMaterial(library(), name); },
+  /** The tension, N/m, under which a straight wound of a length opens by a gap in its middle. */
+  tensionForGap(material, length, gap) {
+    const calls = library();
+    return calls.sunder_tension_for_gap(materialOf(calls, material), length, gap);
+  },
+  /** Bytes that the library has taken of memory. It never gives them back, but uses them again. */
+  get memoryBytes() { return library().memory.buffer.byteLength; },
+  /** The generated calls of the C library. */
+  get calls() { return library(); },
+};

@@ -1,0 +1,1 @@
+export { SunderObject } from './sunder_object.js';

@@ -1,0 +1,195 @@
+// Tears, cuts, bores, pieces, undo, logs, files and snapshots through the package, against the laws of the library.
+import assert from 'node:assert/strict';
+import test from 'node:test';
+import { Sunder, SunderError } from 'sunder-tear';
+import { Buffers, FRONT_STROKE, rig } from './support.mjs';
+
+async function tube(options) {
+  const model = await Sunder.load(rig('tube'), options);
+  const scene = await Sunder.createScene();
+  return { model, scene, it: scene.spawn(model) };
+}
+
+test('a tear without width keeps the area of the surface, and one with width removes what it says', async () => {
+  const { scene, it } = await tube({ soft: false });
+  scene.update(0);
+  const buffers = new Buffers(), whole = buffers.update(it).area;
+  const command = it.tear(FRONT_STROKE);
+  assert.equal(command.result, null);
+  const [result] = scene.update(0);
+  assert.equal(result, command.result);
+  assert.equal(await command.done, result);
+  assert.ok(result.facesCrossed > 5 && result.verticesAdded > 0 && result.error === null);
+  assert.ok(Math.abs(result.length - 1.1) < 0.1, `length ${result.length}`);
+  assert.ok(Math.abs(buffers.update(it).area - whole) < 1e-5 * whole);
+  it.undo();
+  it.tear(FRONT_STROKE, { width: 0.05 });
+  const gap = scene.update(0)[1];
+  const removed = whole - buffers.update(it).area;
+  assert.ok(Math.abs(removed - gap.areaRemoved) < 1e-4, `${removed} and ${gap.areaRemoved}`);
+  assert.ok(Math.abs(removed - 0.05 * gap.length) < 0.1 * removed);
+});
+
+test('typed arrays, objects and nested arrays of a stroke are the same tear', async () => {
+  const digests = [];
+  for (const stroke of [FRONT_STROKE, Float64Array.from(FRONT_STROKE.flat(2)),
+    FRONT_STROKE.map(([[x, y, z], tip]) => ({ base: { x, y, z }, tip: Float64Array.from(tip) }))]) {
+    const { scene, it } = await tube();
+    it.tear(stroke);
+    scene.update(0);
+    digests.push(it.digest);
+  }
+  assert.notEqual(digests[0], 0n);
+  assert.deepEqual(new Set(digests).size, 1);
+});
+
+test('undo and redo go there and back, a log and a file make the same model again', async () => {
+  const { model, scene, it } = await tube();
+  const before = it.toGLB();
+  it.tear(FRONT_STROKE, { width: 0.02, wallDepth: 0.1 });
+  it.drill({ origin: [0, 1, -2], direction: [0, 0, 1], radius: 0.1, depth: 1.8, wall: true });
+  scene.update(1 / 60);
+  assert.ok(scene.results.every((result) => result.error === null));
+  const torn = it.digest;
+  assert.deepEqual(it.undoCounts, { undo: 2, redo: 0 });
+  it.undo();
+  it.undo();
+  scene.update(1 / 60);
+  assert.deepEqual(it.toGLB(), before);
+  it.redo();
+  it.redo();
+  scene.update(1 / 60);
+  assert.equal(it.digest, torn);
+
+  const other = scene.spawn(model);
+  assert.equal(other.applyLog(it.log), 2);
+  assert.equal(other.digest, torn);
+  const saved = await Sunder.load(it.toGLB());
+  assert.ok(saved.mesh(0).vertexCount > model.mesh(0).vertexCount);
+  assert.ok(saved.mesh(0).submeshes.length > model.mesh(0).submeshes.length);
+});
+
+test('a cut severs, a detach takes the piece off, which is a model with mass', async () => {
+  const { scene, it } = await tube();
+  it.cut({ point: [0, 1.2, 0], normal: { x: 0, y: 1, z: 0 }, caps: true });
+  const [cut] = scene.update(1 / 60);
+  assert.ok(cut.separatedPieces >= 1 && cut.caps >= 1);
+  it.detach({ point: [0, 2, 0], density: 1000 });
+  const [{ piece }] = scene.update(1 / 60);
+  const { volume, mass, solid } = piece.info;
+  // A prism over a regular polygon of 24 sides: within a tenth of the cylinder.
+  assert.ok(Math.abs(volume - 0.8 * Math.PI * 0.25) < 0.08, `volume ${volume}`);
+  assert.ok(Math.abs(mass - 1000 * volume) < 1e-6 * mass && solid === 'closed');
+  const fallen = scene.spawn(piece.toModel());
+  fallen.inheritMotion(piece);
+  scene.update(1 / 60);
+  assert.equal(piece.source(0).vertices.length, fallen.model.mesh(0).vertexCount);
+  assert.throws(() => piece.hulls(), { code: 'unsupported_feature' });
+  piece.dispose();
+  assert.throws(() => piece.info, { code: 'invalid_handle' });
+});
+
+test('a stroke over several frames tears as one tear does', async () => {
+  const { scene, it } = await tube({ soft: false });
+  const stroke = it.beginStroke(FRONT_STROKE[0]);
+  scene.update(1 / 60);
+  for (const position of FRONT_STROKE.slice(1)) {
+    stroke.extend(position, 1 / 60);
+    scene.update(1 / 60);
+  }
+  stroke.end();
+  scene.update(1 / 60);
+  const { scene: other, it: whole } = await tube({ soft: false });
+  whole.tear(FRONT_STROKE);
+  const [result] = other.update(1 / 60);
+  assert.ok(Math.abs(it.mesh().vertexCount - whole.mesh().vertexCount) <= 4);
+  assert.ok(result.runs === 1);
+});
+
+test('held tissue follows its hold, a wound under tension gapes, and both come to rest', async () => {
+  const { scene, it } = await tube({ soft: 'skin', tension: 40 });
+  it.tear(FRONT_STROKE);
+  scene.update(1 / 60);
+  const contact = it.raycast([0.2, 1, 2], [0, 0, -1]);
+  assert.ok(contact && Math.abs(contact.place[2] - Math.sqrt(0.25 - 0.04)) < 0.02, JSON.stringify(contact));
+  const target = [contact.place[0] + 0.2, contact.place[1], contact.place[2] + 0.1];
+  const hold = it.hold(contact, target);
+  const before = it.mesh().positions.slice();
+  for (let i = 0; i < 60; ++i) scene.update(1 / 60);
+  const moved = it.mesh().positions.reduce((most, value, i) => Math.max(most, Math.abs(value - before[i])), 0);
+  assert.ok(moved > 0.05, `moved by ${moved}`);
+  hold.release();
+  assert.throws(() => hold.move(target), SunderError);
+  it.setTension(0);
+  for (let i = 0; i < 1200 && it.tissue.isAwake; ++i) scene.update(1 / 60);
+  assert.equal(it.tissue.isAwake, false);
+});
+
+test('a snapshot goes on with the same bits, in its scene and in another one', async () => {
+  const { model, scene, it } = await tube({ tension: 5 });
+  it.play('Bend');
+  scene.update(0.3);
+  it.tear(FRONT_STROKE, { width: 0.01 });
+  for (let i = 0; i < 10; ++i) scene.update(1 / 60);
+  const snapshot = scene.save(), { id } = it;
+  const goOn = (target, instance) => {
+    for (let i = 0; i < 20; ++i) target.update(1 / 60);
+    return instance.mesh().positions.slice();
+  };
+  const first = goOn(scene, it);
+  scene.restore(snapshot, [model]);
+  assert.deepEqual(goOn(scene, it), first);
+  const other = await Sunder.createScene();
+  other.restore(snapshot, [model]);
+  assert.deepEqual(goOn(other, other.adopt(id, model)), first);
+  const broken = snapshot.slice();
+  broken[broken.length >> 1] ^= 1;
+  assert.throws(() => other.restore(broken, [model]), SunderError);
+});
+
+test('clips play, layers fade, poses are set and read', async () => {
+  const { model, scene, it } = await tube();
+  assert.deepEqual(model.clips.map(({ name }) => name), ['Bend']);
+  const layer = it.play('Bend', { mode: 'once' });
+  scene.update(0.5);
+  assert.ok(Math.abs(layer.state.time - 0.5) < 1e-12);
+  assert.deepEqual(it.matrices, model.matrices('Bend', 0.5));
+  it.stop();
+  const rest = model.matrices();
+  it.setMatrices(rest);
+  scene.update(0);
+  assert.deepEqual(it.matrices, rest);
+  assert.equal(model.bones[model.bone('bone1')].parent, model.bone('bone0'));
+});
+
+test('a model from arrays is torn like one from a file', async () => {
+  const positions = [], triangles = [], n = 16;
+  for (let y = 0; y <= n; ++y) for (let x = 0; x <= n; ++x) positions.push(x / n, y / n, 0);
+  for (let y = 0; y < n; ++y) {
+    for (let x = 0; x < n; ++x) {
+      const a = y * (n + 1) + x;
+      triangles.push(a, a + 1, a + n + 2, a, a + n + 2, a + n + 1);
+    }
+  }
+  const model = await Sunder.fromArrays({ meshes: [{ positions, triangles }] }, { soft: false });
+  const scene = await Sunder.createScene();
+  const sheet = scene.spawn(model);
+  sheet.tear([[[0.21, 0.33, 1], [0.21, 0.33, -1]], [[0.83, 0.67, 1], [0.83, 0.67, -1]]]);
+  const [{ length }] = scene.update(0);
+  assert.ok(Math.abs(length - Math.hypot(0.62, 0.34)) < 1e-6, `${length}`);
+});
+
+test('errors have a code, an index and a text; wrong options are told', async () => {
+  await assert.rejects(Sunder.load(new Uint8Array([1, 2, 3])), (error) => error instanceof SunderError && error.code !== '' && error.message.length > 5);
+  const { scene, it } = await tube();
+  assert.throws(() => it.tear(FRONT_STROKE, { walldepth: 1 }), /'walldepth' is no option; there are .*wallDepth/);
+  assert.throws(() => it.tear(FRONT_STROKE, { layers: 'some' }), /none of nearest, all/);
+  assert.throws(() => it.tear([[[0, 0], [0, 0, 1]]]), { code: 'invalid_argument' });
+  assert.throws(() => it.play('Dance'), { code: 'not_found' });
+  const failing = it.tear([[[NaN, 0, 0], [0, 0, 1]], [[0, 0, 0], [0, 1, 1]]]);
+  const [result] = scene.update(0);
+  assert.equal(result.error.code, 'non_finite_value');
+  await assert.rejects(failing.done, { code: 'non_finite_value' });
+  const log = JSON.parse(it.log);
+  assert.deepEqual(log.operations ?? [], []);
+});

@@ -1,0 +1,265 @@
+import type { Calls } from './calls.js';
+
+export type Vector3Like = ArrayLike<number> | { x: number; y: number; z: number };
+export type QuaternionLike = ArrayLike<number> | { x: number; y: number; z: number; w: number };
+/** One position of a blade: from outside the surface to how deep it reaches, in the space of the model. */
+export type Blade = readonly [Vector3Like, Vector3Like] | { base: Vector3Like; tip: Vector3Like } | Float32Array | Float64Array;
+/** Positions of a blade; in a typed array, six numbers each. */
+export type StrokePath = readonly Blade[] | Float32Array | Float64Array;
+export type Bytes = ArrayBuffer | ArrayBufferView | string;
+export type WasmSource = BufferSource | WebAssembly.Module | Response;
+export type WeightPolicy = 'barycentric' | 'poseExact' | 'refit' | 'exact' | 'ofModel';
+export type MaterialName = 'skin' | 'fat' | 'muscle' | 'liver' | 'rubber' | 'foam' | 'cloth' | 'jelly';
+
+/** A failure of the library. */
+export class SunderError extends Error {
+  constructor(code: string, status: number, index: number | null, text: string);
+  /** The name of the status: 'not_found', 'invalid_argument', 'limit_exceeded' ... */
+  readonly code: string;
+  readonly status: number;
+  /** The element that the text speaks of. */
+  readonly index: number | null;
+}
+
+export interface TissueMaterial {
+  returnFrequency: number; dampingRatio: number; membraneStiffness: number; membraneDamping: number; arealDensity: number;
+  range: number; stretchLimit: number; strength: number; toughness: number; flawLength: number;
+}
+export type MaterialLike = MaterialName | (Partial<TissueMaterial> & { base?: MaterialName });
+
+export interface ModelOptions {
+  /** Soft tissue: true (the default), false, or its material. */
+  soft?: boolean | MaterialLike;
+  material?: MaterialLike;
+  materials?: MaterialLike[];
+  hasNormals?: boolean; hasTangents?: boolean; posesVertices?: boolean; unitLength?: boolean;
+  skinning?: 'linear' | 'dualQuaternion';
+  weights?: WeightPolicy;
+  maximumInfluences?: number;
+  particleRange?: number; particleSeed?: number | bigint;
+  gravity?: Vector3Like;
+  /** N/m, pulls lips apart. */
+  tension?: number;
+  addsPoseStrain?: boolean;
+}
+export interface LoadOptions extends ModelOptions {
+  /** Refuses what would otherwise be repaired or dropped. */
+  strict?: boolean;
+  maximumBytes?: number | bigint; maximumMemory?: number | bigint;
+}
+
+export interface Transform { translation: ArrayLike<number>; rotation: ArrayLike<number>; scale: ArrayLike<number> }
+export interface MeshArrays {
+  name?: string;
+  positions: ArrayLike<number>;
+  triangles?: ArrayLike<number>;
+  normals?: ArrayLike<number>;
+  uvs?: ArrayLike<number>; uvSets?: ArrayLike<number>[];
+  triangleSubmesh?: ArrayLike<number>; submeshes?: { name?: string; material?: number }[];
+  /** As many per vertex as you like; without them, slot 0 moves everything. */
+  slots?: ArrayLike<number>; weights?: ArrayLike<number>;
+  skin?: number;
+}
+export interface CharacterArrays {
+  name?: string;
+  bones?: ({ name?: string; parent?: number | null } & Partial<Transform>)[];
+  skins?: { name?: string; bones: ArrayLike<number>; boneFromBind: ArrayLike<number> }[];
+  meshes: MeshArrays[];
+}
+
+/** Arrays are views on the memory of the library, made at each reading: copy what you keep. */
+export interface MeshData {
+  readonly name: string; readonly vertexCount: number; readonly triangleCount: number;
+  readonly submeshes: { name: string; material: number | null }[];
+  readonly positions: Float32Array; readonly normals: Float32Array | null; readonly tangents: Float32Array | null;
+  readonly uvSets: Float32Array[]; readonly colorSets: Float32Array[];
+  readonly attributes: { name: string; components: number; isLabel: boolean; values: Float32Array }[];
+  readonly triangles: Uint32Array; readonly triangleSubmesh: Uint32Array;
+  readonly firstInfluence: Uint32Array; readonly influences: Uint32Array;
+}
+export interface VertexRange { first: number; count: number }
+/** Arrays are views, valid until the next update of the scene; then reading them throws. */
+export interface PosedMesh {
+  readonly vertexCount: number; readonly triangleCapacity: number; readonly epoch: bigint;
+  readonly positions: Float32Array; readonly normals: Float32Array | null; readonly tangents: Float32Array | null;
+  readonly drawRanges: { submesh: number; firstTriangle: number; triangleCount: number }[];
+  readonly dirtyVertices: VertexRange[]; readonly dirtyAttributes: VertexRange[];
+  readonly initialTriangles: Uint32Array;
+  /** Four numbers each: the place in triangles, and its vertices. */
+  readonly triangleWrites: Uint32Array;
+}
+
+declare class Disposable {
+  readonly isDisposed: boolean;
+  dispose(): void;
+}
+
+/** A rigged model, and what its instances share. */
+export class Model extends Disposable {
+  private constructor();
+  readonly name: string;
+  readonly meshCount: number;
+  readonly bones: { name: string; parent: number | null; rest: Transform }[];
+  readonly clips: { name: string; duration: number }[];
+  readonly notes: { kind: 'information' | 'repaired' | 'dropped' | 'warning'; place: string; text: string; count: number }[];
+  mesh(index: number): MeshData;
+  bone(name: string): number;
+  clip(name: string | number): number;
+  /** 12 numbers per bone, column after column, the translation last. */
+  matrices(clip?: string | number | null, seconds?: number): Float64Array;
+  toGLB(options?: { maximumInfluences?: number }): Uint8Array;
+}
+
+export interface FillingOptions { weights?: WeightPolicy; maximumInfluences?: number; background?: boolean }
+export interface TearOptions extends FillingOptions {
+  layers?: 'nearest' | 'all';
+  /** Of the gap; 0: the lips coincide. */
+  width?: number;
+  /** Of the inner walls; 0: none. */
+  wallDepth?: number;
+  lipRoll?: number;
+  wallMaterial?: number;
+}
+export interface StrokeOptions extends TearOptions { minimumDistance?: number; minimumSeconds?: number }
+export interface CutOptions extends FillingOptions {
+  point: Vector3Like; normal: Vector3Like;
+  caps?: boolean; capMaterial?: number;
+  polygon?: Vector3Like[]; sections?: Vector3Like[]; bone?: string;
+  firstHit?: { origin: Vector3Like; direction: Vector3Like };
+}
+export interface BoreOptions extends FillingOptions {
+  origin: Vector3Like; direction: Vector3Like; radius: number; depth: number;
+  wall?: boolean; chordTolerance?: number; wallMaterial?: number;
+}
+export interface DetachOptions {
+  mesh?: number; triangle?: number; point?: Vector3Like; bone?: string;
+  motion?: 'frozen' | 'animated' | 'vanishes'; axes?: 'principal' | 'model'; openSurfaces?: 'fans' | 'shell';
+  density?: number; shellThickness?: number;
+}
+
+/** What came of a command. */
+export interface Result {
+  readonly command: bigint; readonly instance: Instance | null; readonly error: SunderError | null;
+  readonly runs: number; readonly facesCrossed: number; readonly verticesAdded: number; readonly trianglesAdded: number;
+  readonly trianglesRetired: number; readonly blocked: number; readonly caps: number; readonly openSections: number;
+  readonly separatedPieces: number; readonly length: number; readonly areaRemoved: number;
+  readonly piece: Piece | null;
+}
+/** What was asked of an instance; the next update does it. */
+export interface Command {
+  readonly id: bigint;
+  readonly result: Result | null;
+  readonly done: Promise<Result>;
+}
+export interface Stroke {
+  readonly begun: Command;
+  extend(position: Blade, seconds: number): Command;
+  end(): Command;
+  cancel(): Command;
+}
+export interface Hold { move(target: Vector3Like): void; release(): void }
+export interface Layer {
+  readonly state: { isOver: boolean; time: number; weight: number };
+  fade(weight: number, seconds: number): void;
+  stop(seconds?: number): void;
+  seek(time: number): void;
+  speed: number;
+}
+export interface PlayOptions {
+  kind?: 'whole' | 'animated' | 'additive'; mode?: 'loop' | 'pingPong' | 'once'; easing?: 'linear' | 'smooth' | 'in' | 'out';
+  time?: number; speed?: number; fadeIn?: number; fadeOut?: number; weight?: number; maskBone?: number;
+}
+export interface Contact {
+  place: number[]; normal: number[]; distance: number; depth: number; barycentric: number[];
+  mesh: number; triangle: number; submesh: number; material: number; bone: number; enters: number;
+}
+export interface Collider {
+  shape: 'sphere' | 'capsule' | 'box' | 'halfSpace'; size?: Vector3Like; place?: Vector3Like; rotation?: QuaternionLike; friction?: number;
+}
+export type TissuePlace = { mesh?: number; vertex: number } | Contact;
+
+/** One character in a scene. Operations are applied by the next update, in the pose of then. */
+export class Instance {
+  private constructor();
+  readonly id: bigint; readonly model: Model; readonly scene: Scene; readonly exists: boolean;
+  tear(stroke: StrokePath, options?: TearOptions): Command;
+  beginStroke(position: Blade, options?: StrokeOptions): Stroke;
+  cut(plane: CutOptions): Command;
+  drill(bore: BoreOptions): Command;
+  detach(piece: DetachOptions): Command;
+  undo(): Command;
+  redo(): Command;
+  readonly undoCounts: { undo: number; redo: number };
+  prepareToTear(): void;
+  readonly log: string;
+  applyLog(json: Bytes): number;
+  readonly digest: bigint;
+  toGLB(options?: { maximumInfluences?: number }): Uint8Array;
+  play(clip?: string | number, options?: PlayOptions): Layer;
+  crossFade(clip: string | number, options?: PlayOptions): Layer;
+  stop(): void;
+  setMatrices(matrices: ArrayLike<number>, morphWeights?: ArrayLike<number> | null): void;
+  setTransforms(transforms: Transform[], morphWeights?: ArrayLike<number> | null): void;
+  /** A view until the next update. */
+  readonly matrices: Float64Array;
+  mesh(index?: number, seen?: bigint): PosedMesh;
+  source(index?: number): MeshData;
+  visible: boolean;
+  screenHeight: number;
+  readonly tissue: { particleCount: number; pointCount: number; isAwake: boolean };
+  hold(at: TissuePlace, target: Vector3Like, options?: { stiffness?: number }): Hold;
+  push(at: TissuePlace, newtonSeconds: Vector3Like): void;
+  gravity: Vector3Like;
+  setTension(newtonsPerMetre: number, options?: { addsPoseStrain?: boolean }): void;
+  setMaterial(material: MaterialLike, index?: number): void;
+  setColliders(colliders: Collider[]): void;
+  moveCollider(collider: number, place: Vector3Like, rotation?: QuaternionLike): void;
+  inheritMotion(piece: Piece): void;
+  raycast(origin: Vector3Like, direction: Vector3Like, length?: number): Contact | null;
+  nearest(point: Vector3Like, mostDistance?: number): Contact | null;
+  bladeContacts(position: Blade): Contact[];
+  dispose(): void;
+}
+
+export interface FrameStats { [figure: string]: number }
+
+/** Instances that are updated together, once per frame. */
+export class Scene extends Disposable {
+  private constructor();
+  spawn(model: Model, options?: { visible?: boolean; vertices?: number; triangles?: number; operations?: number }): Instance;
+  adopt(id: bigint, model: Model): Instance;
+  readonly instances: Instance[];
+  update(seconds: number): Result[];
+  readonly results: Result[];
+  readonly drawn: Instance[];
+  readonly stats: FrameStats;
+  setBudget(budget?: { settledPoints?: number; modelWork?: number }): void;
+  save(): Uint8Array;
+  restore(snapshot: Bytes, models: Model[], options?: { instances?: number; operations?: number | bigint; memory?: number | bigint }): void;
+}
+
+/** A part that came off. */
+export class Piece extends Disposable {
+  private constructor();
+  readonly info: {
+    mass: number; volume: number; area: number; centre: number[]; inertia: number[]; inertiaPiece: number[]; modelFromPiece: number[];
+    solid: 'closed' | 'fans' | 'shell'; holes: number; meshCount: number;
+  };
+  toModel(options?: ModelOptions): Model;
+  source(mesh?: number): { mesh: number; vertices: Uint32Array };
+  hulls(options?: { most?: number; points?: number }): { points: Float64Array; triangles: Uint32Array; bone: number | null; volume: number }[];
+}
+
+export const Sunder: {
+  init(source?: WasmSource | Promise<WasmSource>): Promise<void>;
+  load(bytes: Bytes, options?: LoadOptions): Promise<Model>;
+  fromArrays(data: CharacterArrays, options?: ModelOptions): Promise<Model>;
+  createScene(options?: { backgroundUpdates?: number }): Promise<Scene>;
+  readonly version: string;
+  readonly features: { threads: boolean; hulls: boolean };
+  readonly materialNames: MaterialName[];
+  material(name: MaterialName): TissueMaterial;
+  tensionForGap(material: MaterialLike, length: number, gap: number): number;
+  readonly memoryBytes: number;
+  readonly calls: Calls;
+};
