@@ -27,11 +27,17 @@ Status status_of_current_exception() {
   }
 }
 
+/// Throws Fault.
 std::string write_text(std::span<const Operation> operations) {
   std::string text = "{\n  \"sunder_operations\": 1,\n  \"operations\": [";
   for (std::size_t i = 0; i < operations.size(); ++i) {
     text += i == 0 ? "\n    " : ",\n    ";
     operation_log::append_operation(text, operations[i]);
+    if (text.size() > kMaximumJsonBytes)
+      throw Fault{Status::failure(StatusCode::limit_exceeded, static_cast<std::uint32_t>(i),
+                                  "the log of %zu operations has more than %zu bytes, which are "
+                                  "the most that is read",
+                                  operations.size(), kMaximumJsonBytes)};
   }
   text += operations.empty() ? "]\n}\n" : "\n  ]\n}\n";
   return text;

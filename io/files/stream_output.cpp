@@ -17,32 +17,35 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Keeps SIGPIPE from this thread, and takes the one that a write has caused.
-class WithoutPipeSignal {
+/// Keeps from this thread the signals of a reader that has gone (SIGPIPE) and of a limit of the
+/// size of files (SIGXFSZ), and takes those that a write has caused.
+class WithoutWriteSignals {
  public:
-  WithoutPipeSignal() {
-    sigemptyset(&signals_);
-    sigaddset(&signals_, SIGPIPE);
+  WithoutWriteSignals() {
     sigset_t pending;
     sigpending(&pending);
-    was_pending_ = sigismember(&pending, SIGPIPE) == 1;
-    pthread_sigmask(SIG_BLOCK, &signals_, &before_);
+    sigemptyset(&caused_);
+    sigset_t blocked;
+    sigemptyset(&blocked);
+    for (const int signal : {SIGPIPE, SIGXFSZ}) {
+      sigaddset(&blocked, signal);
+      if (sigismember(&pending, signal) == 0) sigaddset(&caused_, signal);
+    }
+    pthread_sigmask(SIG_BLOCK, &blocked, &before_);
   }
-  ~WithoutPipeSignal() {
+  ~WithoutWriteSignals() {
     const int error = errno;
     const timespec at_once = {};
-    if (!was_pending_)
-      while (sigtimedwait(&signals_, nullptr, &at_once) < 0 && errno == EINTR) {
-      }
+    while (sigtimedwait(&caused_, nullptr, &at_once) > 0 || errno == EINTR) {
+    }
     pthread_sigmask(SIG_SETMASK, &before_, nullptr);
     errno = error;
   }
-  WithoutPipeSignal(const WithoutPipeSignal&) = delete;
-  WithoutPipeSignal& operator=(const WithoutPipeSignal&) = delete;
+  WithoutWriteSignals(const WithoutWriteSignals&) = delete;
+  WithoutWriteSignals& operator=(const WithoutWriteSignals&) = delete;
 
  private:
-  sigset_t signals_, before_;
-  bool was_pending_ = false;
+  sigset_t caused_, before_;
 };
 
 }  // namespace
@@ -80,7 +83,7 @@ Descriptor open_stream(int folder, const char* name) {
 }
 
 bool write_all(int descriptor, std::span<const std::byte> bytes) {
-  const WithoutPipeSignal guard;
+  const WithoutWriteSignals guard;
   while (!bytes.empty()) {
     const ssize_t written = write(descriptor, bytes.data(), bytes.size());
     if (written >= 0) {

@@ -20,8 +20,8 @@ namespace sunder::files {
 /// Opens a device or a FIFO for writing; a FIFO only if somebody reads it. With errno.
 [[nodiscard]] Descriptor open_stream(int folder, const char* name);
 
-/// Writes all bytes; waits where the reader is slow. A reader that has gone is an error (EPIPE)
-/// instead of the end of the program.
+/// Writes all bytes; waits where the reader is slow. A reader that has gone (EPIPE), and a limit of
+/// the size of files (EFBIG), are errors instead of the end of the program.
 /// @return false, with errno.
 [[nodiscard]] bool write_all(int descriptor, std::span<const std::byte> bytes);
 

@@ -341,6 +341,22 @@ TEST(FormatOperations, TakesALineForAnOperationAndOneForEachBlade) {
   EXPECT_NE(text.find("\n    {\"op\":\"undo\",\"count\":1},\n"), std::string::npos) << text;
 }
 
+// A short log at a pose of many bones would become a long one, which nobody could read.
+TEST(FormatOperations, WritesNoMoreThanIsRead) {
+  ModelPose pose;
+  pose.model_from_bone.assign(100'000, Affine3d::Identity());
+  const Operation cut = CutOperation{pose, {}};
+  std::vector<Operation> operations(3, cut);
+  const auto some = format_operations(operations);
+  ASSERT_TRUE(some) << some.error().text();
+  EXPECT_EQ(parse_operations(*some)->size(), 3u);
+  operations.resize(operations.size() * (std::size_t{64} << 20) / some->size() + 2, cut);
+  const auto many = format_operations(operations);
+  EXPECT_EQ(many.error().code(), StatusCode::limit_exceeded);
+  EXPECT_NE(many.error().text().find("67108864 bytes"), std::string_view::npos)
+      << many.error().text();
+}
+
 TEST(FormatOperations, OfWeightsOnlyWhatHasAMeaningIsWritten) {
   const auto text_of = [](const WeightsOperation& operation) {
     return *format_operations(std::vector<Operation>{operation});

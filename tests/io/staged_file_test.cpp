@@ -8,12 +8,15 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/sysmacros.h>
 #include <sys/un.h>
+#include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -172,6 +175,22 @@ TEST_F(StagedFiles, a_reader_that_goes_away_is_an_error_and_no_signal) {
 }
 
 /// Whatever stands behind them, also a file, is written to, and not replaced.
+TEST_F(StagedFiles, a_limit_of_the_size_of_files_is_an_error_and_no_signal) {
+  const std::filesystem::path file = folder_.path() / "large";
+  const std::vector<std::byte> bytes(100'000);
+  const pid_t child = fork();
+  if (child == 0) {
+    const rlimit limit{10'000, 10'000};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    _exit(write_file(file, bytes).code() == StatusCode::file_unreadable ? 0 : 1);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFEXITED(status)) << "ended by signal " << WTERMSIG(status);
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+  EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
+}
+
 TEST_F(StagedFiles, descriptors_of_the_process_are_written_to) {
   folder_.write("log", "earlier\n");
   const int log = open(path("log").c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);

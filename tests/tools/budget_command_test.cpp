@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "tools/command_fixture.h"
+#include "tools/textured_squares.h"
 
 namespace sunder::command_test {
 namespace {
@@ -97,6 +98,53 @@ TEST_F(BudgetCommand, every_verb_has_a_budget) {
       EXPECT_THAT(result.err, HasSubstr(std::string(limit) + " allows more (limit_exceeded)"));
       EXPECT_THAT(files_in("verbs"), IsEmpty()) << command[0];
     }
+}
+
+/// Squares behind each other, which are cut out by their alpha: each ray meets all of them.
+void write_layers(const std::string& file, std::uint16_t count) {
+  test::GltfBuilder builder;
+  std::vector<float> places;
+  std::vector<std::uint16_t> corners;
+  for (std::uint16_t i = 0; i < count; ++i) {
+    const float z = -0.5f * static_cast<float>(i) / count;
+    for (const float x : {0.0f, 1.0f})
+      for (const float y : {0.0f, 1.0f}) places.insert(places.end(), {x, y, z});
+    for (const int corner : {0, 2, 3, 0, 3, 1})
+      corners.push_back(static_cast<std::uint16_t>(4 * i + corner));
+  }
+  const auto positions = builder.add<float>(places, "VEC3");
+  const auto indices = builder.add<std::uint16_t>(corners, "SCALAR");
+  OrderedJson& json = builder.json;
+  json["materials"].push_back(
+      {{"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 0}}}}, {"alphaMode", "MASK"}});
+  json["meshes"].push_back(
+      {{"primitives", OrderedJson::array({{{"attributes", {{"POSITION", positions}}},
+                                           {"indices", indices},
+                                           {"material", 0}}})}});
+  json["nodes"].push_back({{"mesh", 0}});
+  json["scenes"][0]["nodes"].push_back(0);
+  const std::vector<std::byte> glb = builder.glb();
+  std::ofstream(file, std::ios::binary)
+      .write(reinterpret_cast<const char*>(glb.data()), static_cast<std::streamsize>(glb.size()));
+}
+
+/// What is torn is written before it is drawn, and stays.
+TEST_F(BudgetCommand, pictures_of_what_was_torn_are_limited) {
+  const std::string folder = new_folder("pictures"), layers = path("layers.glb");
+  write_layers(layers, 4000);
+  const std::string log = write("through.json", R"({"sunder_operations": 1, "operations": [
+    {"op": "tear", "stroke": [{"base": [0.4, 0.5, 1], "tip": [0.4, 0.5, -0.00001]},
+                              {"base": [0.6, 0.5, 1], "tip": [0.6, 0.5, -0.00001]}]}]})");
+  const CommandResult torn = run_sunder({"tear", layers, "--ops", log, "-o", folder + "/torn.glb",
+                                         "--picture", folder + "/torn.png", "--max-seconds", "8"});
+  EXPECT_EQ(torn.exit_code, 4) << torn.err;
+  EXPECT_THAT(torn.err, HasSubstr("torn.png: takes more than 16 s; --max-seconds allows more"));
+  EXPECT_THAT(files_in("pictures"), testing::ElementsAre("torn.glb"));
+
+  const std::string demo = new_folder("demo");
+  const CommandResult shown = run_sunder({"demo", layers, "-o", demo, "--max-seconds", "1"});
+  EXPECT_EQ(shown.exit_code, 4) << shown.err;
+  for (const std::string& name : files_in("demo")) EXPECT_NE(name[0], '.') << name;
 }
 
 /// The limit is one for each pair, of all pairs together: two seconds.

@@ -2,6 +2,7 @@
 #include <sunder/skinning/pose.h>
 #include <sunder/tear/topology.h>
 
+#include <iterator>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -100,8 +101,12 @@ Result<TornDemo> tear_mid_clip(const LoadedCharacter& loaded) {
 /// Writes the models, the report and the operation log.
 /// @return ok, or the exit code of the failure, which was reported.
 ExitCode write_results(const DemoRequest& request, const std::string& place, const DemoModel& model,
-                       TornDemo& demo) {
+                       TornDemo& demo, Budget& budget) {
   const Character& character = *model.loaded.character;
+  const Result<Json> weight_errors = weight_errors_by_policy_json(
+      demo.tear.model, model.loaded.character, pose_at(character, kTearFraction));
+  if (!weight_errors) return complain(place, weight_errors.error(), ExitCode::internal_error);
+  const Budget::Writing writing(budget);
   const std::filesystem::path output = request.folder / "torn.glb";
   const std::filesystem::path cactus = request.folder / "cactus.glb";
   if (model.is_embedded)
@@ -109,9 +114,6 @@ ExitCode write_results(const DemoRequest& request, const std::string& place, con
       return complain(cactus.string(), status, ExitCode::internal_error);
   if (const Status status = save(output, demo.tear.model.character(), model); !status)
     return complain(output.string(), status, ExitCode::internal_error);
-  const Result<Json> weight_errors = weight_errors_by_policy_json(
-      demo.tear.model, model.loaded.character, pose_at(character, kTearFraction));
-  if (!weight_errors) return complain(place, weight_errors.error(), ExitCode::internal_error);
   const Json report = {
       {"sunder_report", 1},
       {"model", place},
@@ -164,8 +166,8 @@ ExitCode run_demo(const DemoRequest& request) {
   progress.begin_step(1, "tearing");
   Result<TornDemo> demo = tear_mid_clip(model->loaded);
   if (!demo) return complain(place, demo.error(), ExitCode::unreadable_input);
-  budget.end();
-  if (const ExitCode code = write_results(request, place, *model, *demo); code != ExitCode::ok)
+  if (const ExitCode code = write_results(request, place, *model, *demo, budget);
+      code != ExitCode::ok)
     return code;
   if (demo->outcome.has_missed) {
     print_error("sunder: " + place + ": the stroke met no surface");
@@ -179,7 +181,10 @@ ExitCode run_demo(const DemoRequest& request) {
   if (!looks) return complain(place, looks.error(), ExitCode::internal_error);
   if (const std::string missing = looks->missing_textures(); !missing.empty())
     Messages(Verbosity::normal).warn(place + ": " + missing);
-  if (const Status status = draw_demo(demo->tear, *looks, request.folder, 2, progress); !status) {
+  budget.begin(place + ": pictures");
+  budget.allow_each(1 + std::size(kDemoPictures));
+  if (const Status status = draw_demo(demo->tear, *looks, request.folder, budget, 2, progress);
+      !status) {
     (void)complain(request.folder.string() + ": pictures", status, ExitCode::findings);
     return ExitCode::findings;
   }

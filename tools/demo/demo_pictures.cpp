@@ -100,7 +100,8 @@ Status tear_in_motion(int frame, TornActor& actor, std::size_t& next) {
 }
 
 Status draw_motion(const DemoTear& tear, const ModelLooks& looks, const std::filesystem::path& png,
-                   std::size_t first_step, ProgressBar& progress, TornActor& actor) {
+                   Budget& budget, std::size_t first_step, ProgressBar& progress,
+                   TornActor& actor) {
   const Result<Motion> motion = Motion::create(*tear.source);
   if (!motion) return motion.error();
   std::vector<Vec3d> places, wound;
@@ -123,12 +124,19 @@ Status draw_motion(const DemoTear& tear, const ModelLooks& looks, const std::fil
     add_floor(places, scene);
     pictures.push_back(trace(scene, camera, kMotion));
   }
+  const Budget::Writing writing(budget);
   return write_animated_png(png, pictures, static_cast<int>(1000 * kDemoFrame));
+}
+
+Status write_still(const std::filesystem::path& png, const Picture& picture, Budget& budget) {
+  const Budget::Writing writing(budget);
+  return write_png(png, picture);
 }
 
 /// One picture of the torn model, and one of the same moment before the tear if that is wanted.
 Status draw_shot(const Shot& shot, const DemoTear& tear, const ModelLooks& looks,
-                 const std::filesystem::path& folder, ViewFrame& frame, TornActor& actor) {
+                 const std::filesystem::path& folder, Budget& budget, ViewFrame& frame,
+                 TornActor& actor) {
   const PoseSpec pose = pose_at(*tear.source, shot.clip_fraction);
   const Status status = shot.seconds > 0 ? actor.play(pose, shot.seconds) : actor.settle(pose);
   if (!status) return status;
@@ -144,7 +152,8 @@ Status draw_shot(const Shot& shot, const DemoTear& tear, const ModelLooks& looks
   const Camera camera = aim(frame, places, wound, shot.closeness);
   add_floor(places, scene);
   const std::filesystem::path png = folder / (std::string(shot.name) + ".png");
-  if (const Status written = write_png(png, trace(scene, camera, kStill)); !written) return written;
+  if (const Status written = write_still(png, trace(scene, camera, kStill), budget); !written)
+    return written;
   if (&shot != &kShots[0]) return {};
   const auto untorn = posed_at(*tear.source, pose);
   if (!untorn) return untorn.error();
@@ -152,7 +161,7 @@ Status draw_shot(const Shot& shot, const DemoTear& tear, const ModelLooks& looks
   for (std::size_t m = 0; m < untorn->size(); ++m)
     looks.add_mesh(tear.source->meshes[m], (*untorn)[m], {}, before);
   add_floor(places, before);
-  return write_png(folder / "before.png", trace(before, camera, kStill));
+  return write_still(folder / "before.png", trace(before, camera, kStill), budget);
 }
 
 }  // namespace
@@ -163,18 +172,18 @@ PoseSpec pose_at(const Character& character, double fraction) {
 }
 
 Status draw_demo(const DemoTear& tear, const ModelLooks& looks, const std::filesystem::path& folder,
-                 std::size_t first_step, ProgressBar& progress) {
+                 Budget& budget, std::size_t first_step, ProgressBar& progress) {
   Result<TornActor> actor = TornActor::create(tear.source, tear.operation);
   if (!actor) return actor.error();
   if (const Status status =
-          draw_motion(tear, looks, folder / "motion.png", first_step, progress, *actor);
+          draw_motion(tear, looks, folder / "motion.png", budget, first_step, progress, *actor);
       !status)
     return status;
   first_step += kFrames;
   ViewFrame frame = tear.frame;
   for (const Shot& shot : kShots) {
     progress.begin_step(first_step++, std::string("drawing ") + shot.name);
-    if (const Status status = draw_shot(shot, tear, looks, folder, frame, *actor); !status)
+    if (const Status status = draw_shot(shot, tear, looks, folder, budget, frame, *actor); !status)
       return status;
   }
   return {};

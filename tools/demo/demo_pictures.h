@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "tools/budget/budget.h"
 #include "tools/messages/progress_bar.h"
 #include "tools/model/posed_model.h"
 #include "tools/picture/model_looks.h"
@@ -31,9 +32,10 @@ struct DemoTear {
 /// Draws the moment before the tear, the tear, the wound from near, and two later moments of the
 /// clip; and motion.png, an animated PNG of the character that is torn while it moves. Lips open
 /// like those of soft tissue. Takes about twelve seconds of processor time.
+/// @param budget    not ended while files are written.
 /// @param progress  begins kDemoSteps steps, from `first_step` on.
 [[nodiscard]] Status draw_demo(const DemoTear& tear, const ModelLooks& looks,
-                               const std::filesystem::path& folder, std::size_t first_step,
-                               ProgressBar& progress);
+                               const std::filesystem::path& folder, Budget& budget,
+                               std::size_t first_step, ProgressBar& progress);
 
 }  // namespace sunder::tools

@@ -159,7 +159,7 @@ void move_apart(const Character& character, const PlaneCut& cut,
 }  // namespace
 
 Status draw_torn(const LoadedCharacter& loaded, std::span<const Operation> history,
-                 const std::filesystem::path& png, const Messages& messages,
+                 const std::filesystem::path& png, const Messages& messages, Budget& budget,
                  const PosedRobot* robot) {
   ProgressBar progress(4);
   progress.begin_step(0, "drawing: tearing soft tissue");
@@ -212,7 +212,9 @@ Status draw_torn(const LoadedCharacter& loaded, std::span<const Operation> histo
   if (robot != nullptr) add_places_of_robot(*beside, diagonal, shown);
   const Camera camera = aim(frame, shown, bounds, robot == nullptr ? margin : 1.1);
   progress.begin_step(3, "drawing");
-  return write_png(png, trace(scene, camera, kSize));
+  const Picture picture = trace(scene, camera, kSize);
+  const Budget::Writing writing(budget);
+  return write_png(png, picture);
 }
 
 }  // namespace sunder::tools

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <span>
 
+#include "tools/budget/budget.h"
 #include "tools/messages/messages.h"
 #include "tools/picture/posed_robot.h"
 
@@ -17,10 +18,11 @@ namespace sunder::tools {
 ///
 /// @param history   at least one operation; all are valid for the source.
 /// @param messages  get a warning if textures are missing.
+/// @param budget    not ended while the file is written.
 /// @param robot     stands beside the model, or null. The picture then shows the wound and what of
 ///                 the robot is near, from the side.
 [[nodiscard]] Status draw_torn(const LoadedCharacter& loaded, std::span<const Operation> history,
                                const std::filesystem::path& png, const Messages& messages,
-                               const PosedRobot* robot = nullptr);
+                               Budget& budget, const PosedRobot* robot = nullptr);
 
 }  // namespace sunder::tools

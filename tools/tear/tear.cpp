@@ -81,7 +81,8 @@ bool draw_picture(const TearRun& run, const std::filesystem::path& png) {
     status = Status::failure(StatusCode::empty_input, kNone,
                              "the log has no operation that could be drawn");
   else
-    status = draw_torn(run.loaded, history, png, run.messages, robot ? &*robot : nullptr);
+    status =
+        draw_torn(run.loaded, history, png, run.messages, run.budget, robot ? &*robot : nullptr);
   if (status) run.messages.say(written(png));
   if (!status) (void)complain(png.string(), status, ExitCode::findings);
   return static_cast<bool>(status);
@@ -138,6 +139,17 @@ Status count_result(TearRun& run) {
   return {};
 }
 
+/// Writes the files and the pieces. The command is not ended meanwhile.
+/// @return ok, or the exit code of the failure, which was reported.
+ExitCode write_all(TearRun& run, const std::string& report, const std::string& log) {
+  const Budget::Writing writing(run.budget);
+  const auto begin = Clock::now();
+  if (const ExitCode code = write_files(run, report, log); code != ExitCode::ok) return code;
+  if (const ExitCode code = write_pieces(run); code != ExitCode::ok) return code;
+  run.times.saving = seconds_since(begin);
+  return ExitCode::ok;
+}
+
 /// Writes the files and the picture, and prints the report or the summary.
 /// @return ok, or the exit code of the failure, which was reported.
 ExitCode finish(TearRun& run, Clock::time_point begin) {
@@ -152,15 +164,17 @@ ExitCode finish(TearRun& run, Clock::time_point begin) {
     if (!json) return complain(request.model.string(), json.error(), ExitCode::internal_error);
     report = dump(*json);
   }
-  run.budget.end();
-  const auto saving = Clock::now();
-  if (const ExitCode code = write_files(run, report); code != ExitCode::ok) return code;
-  if (const ExitCode code = write_pieces(run); code != ExitCode::ok) return code;
-  run.times.saving = seconds_since(saving);
+  Result<std::string> log = std::string();
+  if (request.log) log = format_operations(value_of(run.model.history()));
+  if (!log) return complain(request.log->string(), log.error(), ExitCode::usage);
+  if (const ExitCode code = write_all(run, report, *log); code != ExitCode::ok) return code;
   if (request.picture && !request.dry_run) {
+    run.budget.begin(request.picture->string());
+    run.budget.allow_each(2);
     run.has_picture = draw_picture(run, *request.picture);
     run.has_findings |= !run.has_picture;
   }
+  run.budget.end();
   if (!request.dry_run)
     for (const std::string& note : validation_notes(run)) run.messages.say(note);
   if (run.certified) run.messages.say(certificate_line(*run.certified, *request.maximum_error));

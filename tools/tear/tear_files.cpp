@@ -1,7 +1,5 @@
 #include "tools/tear/tear_files.h"
 
-#include <sunder/io/operation_log.h>
-
 #include <optional>
 #include <vector>
 
@@ -9,7 +7,6 @@
 #include "tools/messages/overwriting.h"
 #include "tools/messages/text_file.h"
 #include "tools/tear/open_lips_of_run.h"
-#include "tools/value_of.h"
 
 namespace sunder::tools {
 namespace {
@@ -79,16 +76,14 @@ ExitCode write_pieces(TearRun& run) {
   return code;
 }
 
-ExitCode write_files(const TearRun& run, const std::string& report) {
+ExitCode write_files(const TearRun& run, const std::string& report, const std::string& log) {
   const TearRequest& request = run.request;
   if (request.dry_run || !request.output) return ExitCode::ok;
   const bool has_report_file = request.report && !reports_to_stdout(request);
   TextBesideModel report_file(has_report_file ? request.report : std::nullopt, report);
   if (const Status status = report_file.status(); !status)
     return complain(request.report->string(), status, ExitCode::unreadable_input);
-  TextBesideModel log_file(
-      request.log,
-      request.log ? value_of(format_operations(value_of(run.model.history()))) : std::string());
+  TextBesideModel log_file(request.log, log);
   if (const Status status = log_file.status(); !status)
     return complain(request.log->string(), status, ExitCode::unreadable_input);
   SaveOptions save = request.save;

@@ -12,8 +12,10 @@ namespace sunder::tools {
 
 /// Writes the model, its report and its log: all of them, or none.
 /// @param report  JSON; only written with --report to a file.
+/// @param log     only written with --save-log.
 /// @return ok, or the exit code of the failure, which was reported.
-[[nodiscard]] ExitCode write_files(const TearRun& run, const std::string& report);
+[[nodiscard]] ExitCode write_files(const TearRun& run, const std::string& report,
+                                   const std::string& log);
 
 /// Writes the detached pieces, with --pieces. If one cannot be written, those before it stay.
 /// @return ok, or the exit code of the failure, which was reported.

@@ -37,12 +37,12 @@ namespace sunder {
     const std::filesystem::path& file, const Character* model = nullptr);
 
 /// The log as text; parse_operations() gives back operations with the same bits.
-/// @return limit_exceeded: out of memory.
+/// @return limit_exceeded: out of memory, or more than 64 MiB, which are the most that is read.
 [[nodiscard]] SUNDER_API Result<std::string> format_operations(
     std::span<const Operation> operations);
 
 /// Writes format_operations() to a file. A failing call leaves an existing file as it was.
-/// @return file_unreadable.
+/// @return file_unreadable; as format_operations().
 [[nodiscard]] SUNDER_API Status save_operations(const std::filesystem::path& file,
                                                 std::span<const Operation> operations);
 
