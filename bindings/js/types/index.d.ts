@@ -163,7 +163,7 @@ export interface Layer {
   fade(weight: number, seconds: number): void;
   stop(seconds?: number): void;
   seek(time: number): void;
-  speed: number;
+  set speed(speed: number);
 }
 export interface PlayOptions {
   kind?: 'whole' | 'animated' | 'additive'; mode?: 'loop' | 'pingPong' | 'once'; easing?: 'linear' | 'smooth' | 'in' | 'out';
@@ -204,12 +204,12 @@ export class Instance {
   readonly matrices: Float64Array;
   mesh(index?: number, seen?: bigint): PosedMesh;
   source(index?: number): MeshData;
-  visible: boolean;
-  screenHeight: number;
+  set visible(visible: boolean);
+  set screenHeight(pixels: number);
   readonly tissue: { particleCount: number; pointCount: number; isAwake: boolean };
   hold(at: TissuePlace, target: Vector3Like, options?: { stiffness?: number }): Hold;
   push(at: TissuePlace, newtonSeconds: Vector3Like): void;
-  gravity: Vector3Like;
+  set gravity(metresPerSecondSquared: Vector3Like);
   setTension(newtonsPerMetre: number, options?: { addsPoseStrain?: boolean }): void;
   setMaterial(material: MaterialLike, index?: number): void;
   setColliders(colliders: Collider[]): void;
