@@ -1,6 +1,7 @@
 # WebAssembly by Debian's clang and wasi-libc (scripts/setup wasm): one thread, vectors of 128 bits, exceptions in the form that
 # node and all browsers read. The runtime of exceptions is compiled by bindings/wasm.
 set(CMAKE_SYSTEM_NAME WASI)
+list(APPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_LIST_DIR}/modules)
 set(CMAKE_SYSTEM_PROCESSOR wasm32)
 set(CMAKE_C_COMPILER clang-22)
 set(CMAKE_CXX_COMPILER clang++-22)

@@ -49,7 +49,7 @@ const std::map<std::string, std::set<std::string>> kMayUse = {
     {"io", {"core", "robot", "operation", "weights", "io"}},
     {"bindings",
      {"bodies", "core", "operation", "skinning", "animation", "weights", "tear", "particles",
-      "scene", "io", "bindings"}},
+      "scene", "validation", "io", "bindings"}},
     {"tools",
      {"bodies", "core", "robot", "operation", "skinning", "animation", "weights", "certificate",
       "coupled_refit", "tear", "aim", "particles", "scene", "validation", "binding", "io",
