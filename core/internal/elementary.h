@@ -1,5 +1,7 @@
 #pragma once
 
+#include <sunder/core/api.h>
+
 namespace sunder::elementary {
 
 /// Sine, exponential and their kind with the same bits on every platform, which the C libraries do
@@ -11,13 +13,13 @@ namespace sunder::elementary {
 ///
 /// Polynomials are near-minimax (Chebyshev), at arguments reduced as in Cody and Waite, *Software
 /// Manual for the Elementary Functions*, 1980.
-[[nodiscard]] double sin(double x);
-[[nodiscard]] double cos(double x);
-[[nodiscard]] double asin(double x);
-[[nodiscard]] double acos(double x);
-[[nodiscard]] double atan2(double y, double x);
-[[nodiscard]] double exp(double x);
-[[nodiscard]] double expm1(double x);
-[[nodiscard]] double log(double x);
+[[nodiscard]] SUNDER_API double sin(double x);
+[[nodiscard]] SUNDER_API double cos(double x);
+[[nodiscard]] SUNDER_API double asin(double x);
+[[nodiscard]] SUNDER_API double acos(double x);
+[[nodiscard]] SUNDER_API double atan2(double y, double x);
+[[nodiscard]] SUNDER_API double exp(double x);
+[[nodiscard]] SUNDER_API double expm1(double x);
+[[nodiscard]] SUNDER_API double log(double x);
 
 }  // namespace sunder::elementary
