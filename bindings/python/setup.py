@@ -26,7 +26,7 @@ class BuildWithLibrary(build_py):
     def run(self):
         super().run()
         named = os.environ.get('SUNDER_C_LIBRARY')
-        library = pathlib.Path(named) if named else build_library(pathlib.Path(self.build_lib).resolve().parent / 'sunder')
+        library = pathlib.Path(named) if named else build_library(SOURCE / 'build/python')
         package = pathlib.Path(self.build_lib) / 'sunder_tear'
         shutil.copy(library.resolve(), package / 'libsunder_c.so')
         shutil.copy(SOURCE / 'bindings/c/sunder_api.json', package)
