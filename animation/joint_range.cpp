@@ -6,6 +6,7 @@
 
 #include "animation/rotation.h"
 #include "core/internal/elementary.h"
+#include "core/internal/rotation_about.h"
 
 namespace sunder::animation {
 namespace {
@@ -26,8 +27,6 @@ double into_range(double angle, double lower, double upper) {
   return above - upper <= lower - (above - kTurn) ? upper : lower;
 }
 
-Quatd about(const Vec3d& axis, double angle) { return rotation_by(Vec3d(angle * axis)); }
-
 }  // namespace
 
 JointRange::JointRange(const BoneLimit& limit, const Quatd& rest)
@@ -45,7 +44,7 @@ double JointRange::hinge_angle(const Quatd& rotation) const {
 }
 
 Quatd JointRange::hinge_at(double angle) const {
-  return unit(multiply(rest_, about(axis_, angle)));
+  return unit(multiply(rest_, rotation_about(angle, axis_)));
 }
 
 Quatd JointRange::clamped(const Quatd& rotation) const {
@@ -67,8 +66,9 @@ Quatd JointRange::clamped_cone(const Quatd& relative) const {
   if (swing.w() < 0.0) swing.coeffs() = -swing.coeffs();
   const double sine = norm(swing.vec());
   if (2.0 * elementary::atan2(sine, swing.w()) > cone_ && sine > 0.0)
-    swing = about(Vec3d(swing.vec() / sine), cone_);
-  return multiply(swing, about(axis_, into_range(twist_angle(twist, axis_), lower_, upper_)));
+    swing = rotation_about(cone_, swing.vec() / sine);
+  return multiply(swing,
+                  rotation_about(into_range(twist_angle(twist, axis_), lower_, upper_), axis_));
 }
 
 Quatd JointRange::turned(const Quatd& rotation, const Vec3d& turn) const {

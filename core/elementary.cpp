@@ -20,14 +20,6 @@ double polynomial(const std::array<double, n>& coefficients, double x) {
   return sum;
 }
 
-/// A number times a power of two, by multiplications, each of which is exact or, at most once,
-/// rounded.
-double scaled(double x, int power) {
-  for (; power > 1000; power -= 1000) x *= 0x1p+1000;
-  for (; power < -900; power += 900) x *= 0x1p-900;
-  return std::ldexp(x, power);
-}
-
 /// An angle in [-pi/4, pi/4] and how often pi/2 was taken away, modulo 4.
 struct Reduced {
   double rest = 0;
@@ -158,7 +150,7 @@ double exp(double x) {
   if (x < -746) return 0;
   const double power = std::floor(x * 0x1.71547652b82fep+0 + 0.5);
   const double rest = (x - power * kLog2) - power * kLog2Rest;
-  return scaled(1 + exponential_near_zero(rest), static_cast<int>(power));
+  return std::ldexp(1 + exponential_near_zero(rest), static_cast<int>(power));
 }
 
 double expm1(double x) {

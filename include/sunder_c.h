@@ -940,7 +940,7 @@ SUNDER_C_API sunder_status sunder_blade_force(const sunder_cutting_resistance* t
 
 /* ---- Validation of a skin against its source ---- */
 
-typedef uint32_t sunder_report;
+typedef uint32_t sunder_report; /* what sunder_validate() found */
 
 enum { SUNDER_SEVERITY_NOTE = 0, SUNDER_SEVERITY_WARNING = 1, SUNDER_SEVERITY_ERROR = 2 };
 /* How a figure is known: from all data; as a bound for all poses; the largest over the poses that
@@ -1001,7 +1001,7 @@ typedef struct sunder_report_info {
 SUNDER_C_API sunder_validation_options sunder_default_validation_options(void);
 /* Compares the skin of a target with that of its source: rows of weights, deformation, and the
  * place of the weights. O(vertices x poses), allocates. Fails: SUNDER_UNSUPPORTED_FEATURE without
- * SUNDER_FEATURE_VALIDATION. */
+ * SUNDER_FEATURE_VALIDATION; SUNDER_INVALID_ARGUMENT, SUNDER_NON_FINITE_VALUE for an option. */
 SUNDER_C_API sunder_status sunder_validate(sunder_character source, sunder_character target,
                                            const sunder_validation_options* options,
                                            sunder_report* report);

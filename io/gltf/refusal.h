@@ -1,5 +1,6 @@
 #pragma once
 
+#include <sunder/core/api.h>
 #include <sunder/core/status.h>
 
 namespace sunder::gltf {
@@ -12,7 +13,7 @@ struct Refusal {
 };
 
 [[noreturn]] void refuse(StatusCode code, std::uint32_t index, const char* format, ...)
-    __attribute__((format(printf, 3, 4)));
+    SUNDER_PRINTF(3, 4);
 
 /// Runs `work` and converts any exception to a Status.
 template <class T, class Work>

@@ -91,7 +91,7 @@ class SUNDER_API LoadedSnapshot {
   friend class Scene;
   struct Data;
   explicit LoadedSnapshot(std::unique_ptr<Data> data);
-  std::unique_ptr<Data> data_;  ///< Null: a scene has taken it.
+  std::unique_ptr<Data> data_;  ///< Null: moved from.
 };
 
 /// Many characters, updated once per frame: what changed is animated, torn, stepped and posed; what
