@@ -26,8 +26,8 @@ SUNDER_INLINE void append_lane(const VertexDisplacements& displacements, std::ui
   const float *a = matrices[by.particles[0]].data(), *b = matrices[by.particles[1]].data(),
               *c = matrices[by.particles[2]].data(), *d = matrices[by.particles[3]].data();
   const Vec4f* of = displacements.displacements.data();
-  const float *p = of[by.particles[0]].data(), *q = of[by.particles[1]].data(),
-              *r = of[by.particles[2]].data(), *t = of[by.particles[3]].data();
+  const float *p = of[stored.particles[0]].data(), *q = of[stored.particles[1]].data(),
+              *r = of[stored.particles[2]].data(), *t = of[stored.particles[3]].data();
   const float* s = stored.of_weights[0].data();  // twelve numbers
 #if SUNDER_WIDE_SUMS
   sum_nine(by.weights.data(), a, b, c, d, lanes.mean_first + 4 * lane, lanes.mean_second + 4 * lane,

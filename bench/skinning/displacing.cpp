@@ -24,6 +24,7 @@ Displacing measure_displacing(const SkinningScene& scene) {
       soft.influences[v].particles[k] =
           static_cast<std::uint32_t>(190.0 * v / mesh.vertex_count()) + random.index(10);
       soft.influences[v].weights[k] = 0.25f;
+      soft.gradients[v].particles[k] = soft.influences[v].particles[k];
       soft.gradients[v].of_weights[k] = test::random_vector(random, 3);
     }
   soft.moved = {{0, mesh.vertex_count()}};

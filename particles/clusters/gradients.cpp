@@ -10,54 +10,98 @@
 namespace sunder::particles {
 namespace {
 
-float weight_of(const ParticleInfluences& influences, Index particle) {
-  for (std::size_t i = 0; i < 4; ++i)
-    if (influences.particles[i] == particle && influences.weights[i] > 0)
-      return influences.weights[i];
-  return 0.0f;
-}
-
 /// The gradients of some faces, weighted by area. On a smooth surface their mean is that of the
 /// point. At a crease, as between a lip and its wall, each face knows only the part in its own
 /// plane; there the gradient is the one whose parts in these planes agree best with the faces'.
 class FaceGradients {
  public:
-  FaceGradients() { sums_.fill(Vec3d::Zero()); }
-
   void add_face(const Vec3d& normal, double area) {
     area_ += area;
     normals_ += area * normal;
     for (Eigen::Index k = 0; k < 3; ++k) planes_.col(k) -= area * normal[k] * normal;
   }
-  void add(std::size_t i, const Vec3d& gradient_times_area) { sums_[i] += gradient_times_area; }
+  /// The part of a corner of a face: its weights times a vector.
+  void add_corner(const ParticleInfluences& corner, const Vec3d& per_weight) {
+    for (std::size_t i = 0; i < 4 && corner.weights[i] > 0; ++i)
+      if (Vec3d* sum = sum_of(corner.particles[i]))
+        *sum += static_cast<double>(corner.weights[i]) * per_weight;
+  }
 
-  [[nodiscard]] ParticleGradients means() const {
+  /// Of the four particles whose weights change most.
+  /// @param own  those of the point.
+  [[nodiscard]] ParticleGradients means(const ParticleInfluences& own) {
     ParticleGradients gradients;
     if (!(area_ > 0)) return gradients;
+    const std::size_t kept = keep_largest();
+    share_the_rest(own, kept);
     const double length = norm(normals_);
     const bool is_creased = length < kCreaseCosine * area_ && length > 0;
     Mat3d parts = planes_ + area_ * Mat3d::Identity();
     for (Eigen::Index k = 0; k < 3; ++k)
       parts.col(k) += kAcrossCrease * area_ * (normals_[k] / (length * length)) * normals_;
-    for (std::size_t i = 0; i < 4; ++i) {
-      Vec3d of = sums_[i] / area_;
+    for (std::size_t i = 0; i < kept; ++i) {
+      Vec3d of = sums_[i].gradient / area_;
       if (is_creased && determinant(parts) > kFlatDeterminant * area_ * area_ * area_)
-        of = multiply(inverse(parts), sums_[i]);
+        of = multiply(inverse(parts), sums_[i].gradient);
+      gradients.particles[i] = sums_[i].particle;
       gradients.of_weights[i] = of.cast<float>();
     }
     return gradients;
   }
 
  private:
+  struct Sum {
+    Index particle;
+    Vec3d gradient;
+  };
+  /// Of more particles around one point, the first ones count.
+  static constexpr std::size_t kMostParticles = 64;
+
+  Vec3d* sum_of(Index particle) {
+    for (std::size_t i = 0; i < count_; ++i)
+      if (sums_[i].particle == particle) return &sums_[i].gradient;
+    if (count_ == kMostParticles) return nullptr;
+    sums_[count_] = {particle, Vec3d::Zero()};
+    return &sums_[count_++].gradient;
+  }
+
+  /// Moves the four largest to the front; of equal ones the first.
+  std::size_t keep_largest() {
+    if (count_ <= 4) return count_;
+    const auto end = sums_.begin() + static_cast<std::ptrdiff_t>(count_);
+    std::stable_sort(sums_.begin(), end, [](const Sum& a, const Sum& b) {
+      return a.gradient.squaredNorm() > b.gradient.squaredNorm();
+    });
+    return 4;
+  }
+
+  /// Weights sum to one, so that their gradients cancel, and particles that all move alike turn
+  /// nothing: what is left out is given to those that are kept, by their weights at the point.
+  void share_the_rest(const ParticleInfluences& own, std::size_t kept) {
+    std::array<double, 4> shares = {};
+    double whole = 0;
+    Vec3d rest = Vec3d::Zero();
+    for (std::size_t i = kept; i < count_; ++i) rest += sums_[i].gradient;
+    for (std::size_t i = 0; i < kept; ++i) {
+      for (std::size_t k = 0; k < 4; ++k)
+        if (own.particles[k] == sums_[i].particle && own.weights[k] > 0)
+          shares[i] = static_cast<double>(own.weights[k]);
+      whole += shares[i];
+    }
+    for (std::size_t i = 0; i < kept; ++i)
+      sums_[i].gradient += (whole > 0 ? shares[i] / whole : 1 / static_cast<double>(kept)) * rest;
+  }
+
   double area_ = 0;
   Vec3d normals_ = Vec3d::Zero();
   Mat3d planes_ = Mat3d::Zero();  ///< The sum of area (projection to the plane - identity).
-  std::array<Vec3d, 4> sums_;
+  std::array<Sum, kMostParticles> sums_;
+  std::size_t count_ = 0;
 };
 
 ParticleGradients gradients_at(const Surface& surface, const Structure& structure, Index point) {
   if (surface.point_corner[point] == kNone) return {};
-  const ParticleInfluences& own = structure.points.influences[point];
+  const std::vector<ParticleInfluences>& influences = structure.points.influences;
   FaceGradients faces;
   surface.for_each_in_fan(surface.point_corner[point], [&](Index corner) {
     const Index b = surface.corner_point[Surface::next(corner)],
@@ -70,15 +114,12 @@ ParticleGradients gradients_at(const Surface& surface, const Structure& structur
     if (!(length > 0)) return;
     const Vec3d normal = twice / length;
     faces.add_face(normal, length);
-    for (std::size_t i = 0; i < 4 && own.weights[i] > 0; ++i) {
-      const double rise_b =
-          weight_of(structure.points.influences[b], own.particles[i]) - own.weights[i];
-      const double rise_c =
-          weight_of(structure.points.influences[c], own.particles[i]) - own.weights[i];
-      faces.add(i, normal.cross(rise_c * to_b - rise_b * to_c));  // times twice the area
-    }
+    // normal x (rise_c to_b - rise_b to_c), times twice the area, corner by corner.
+    faces.add_corner(influences[point], normal.cross(to_c - to_b));
+    faces.add_corner(influences[b], -normal.cross(to_c));
+    faces.add_corner(influences[c], normal.cross(to_b));
   });
-  return faces.means();
+  return faces.means(influences[point]);
 }
 
 }  // namespace

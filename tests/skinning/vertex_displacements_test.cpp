@@ -320,7 +320,7 @@ struct Sheet {
         ParticleInfluences influences;
         ParticleGradients gradients;
         for (std::size_t k = 0; k < 4; ++k) {
-          influences.particles[k] = order[k];
+          influences.particles[k] = gradients.particles[k] = order[k];
           influences.weights[k] = static_cast<float>(weights[order[k]]);
           for (int axis = 0; axis < 2; ++axis) {
             Vec3d step = Vec3d::Zero();
@@ -432,8 +432,9 @@ TEST(VertexDisplacements, gradients_are_turned_by_the_mean_of_the_particles) {
         mean += double{by.weights[k]} * soft.matrices[by.particles[k]].cast<double>();
       Mat3d map = Mat3d::Identity();
       for (std::size_t k = 0; k < 4; ++k) {
-        const Vec3d u = soft.displacements[by.particles[k]].head<3>().cast<double>();
-        const Vec3d g = mean * soft.gradients[soft.rows[v]].of_weights[k].cast<double>();
+        const ParticleGradients& of = soft.gradients[soft.rows[v]];
+        const Vec3d u = soft.displacements[of.particles[k]].head<3>().cast<double>();
+        const Vec3d g = mean * of.of_weights[k].cast<double>();
         map += u * g.transpose();
       }
       const Vec3d across = n.cross(Vec3d::Unit(std::abs(n.x()) < 0.5 * n.norm() ? 0 : 1));

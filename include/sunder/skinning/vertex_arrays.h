@@ -97,10 +97,12 @@ struct ParticleInfluences {
   bool operator==(const ParticleInfluences&) const = default;
 };
 
-/// The gradients of the four weights of a ParticleInfluences along the surface.
+/// How the weights of particles change along the surface around a point: of the four that change
+/// most there. At the lip of a tear these can be particles whose weight at the point itself is 0.
 struct ParticleGradients {
+  std::array<std::uint32_t, 4> particles = {};  ///< Of any, for unused entries.
   /// In the surface's tangent plane, in the pose and space in which they were taken; 1 / metre. 0
-  /// for unused entries.
+  /// for unused entries. They cancel, up to rounding, where all weights around sum to one.
   std::array<Vec3f, 4> of_weights = {Vec3f::Zero(), Vec3f::Zero(), Vec3f::Zero(), Vec3f::Zero()};
 };
 
@@ -111,7 +113,8 @@ struct ParticleGradients {
 /// With gradients, tangents are mapped by F = I + sum_k U_k g_k^T and normals by its cofactors: the
 /// normals of the displaced surface. Tangents are made orthogonal to normals, if both are wanted.
 /// Both keep their length, or get unit length if the buffer requests it; the w of tangents is kept.
-/// g_k is the stored gradient times the weighted mean of the particles' `model_from_gradient`.
+/// g_k is the stored gradient, of its own particle, times the weighted mean of
+/// `model_from_gradient` of the particles that displace the vertex.
 struct VertexDisplacements {
   /// One per vertex: its row. kNone, or any index that is not a row: not displaced.
   std::span<const std::uint32_t> vertex_rows;
@@ -121,7 +124,7 @@ struct VertexDisplacements {
   std::span<const Vec4f> displacements;
   /// The displaced vertices: ascending, disjoint. All others stay where the bones put them.
   std::span<const IndexRange> moved;
-  /// One per row; or empty: normals and tangents are not displaced.
+  /// One per row; or empty: normals and tangents are not displaced. Particle indices are unchecked.
   std::span<const ParticleGradients> gradients;
   /// One per particle, if there are gradients: transforms them into posed space.
   std::span<const Mat3f> model_from_gradient;

@@ -69,6 +69,7 @@ inline Soft make_soft(Random& random, std::uint32_t vertices, std::uint32_t part
       influences.particles[k] = random.index(particles);
       influences.weights[k] = static_cast<float>(random.uniform(0.1, 1));
       sum += influences.weights[k];
+      gradients.particles[k] = random.index(particles);  // need not be those of the point
       gradients.of_weights[k] = random_vector(random, 3);
     }
     for (std::uint32_t k = 0; k < count; ++k)
