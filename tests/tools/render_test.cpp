@@ -13,6 +13,7 @@
 #include "support/machine/random.h"
 #include "support/machine/temporary_folder.h"
 #include "tools/render/image.h"
+#include "tools/render/lighting.h"
 #include "tools/render/palette.h"
 #include "tools/render/png_file.h"
 #include "tools/render/trace.h"
@@ -219,6 +220,60 @@ TEST(TriangleTree, finds_what_a_search_of_all_triangles_finds) {
       const float beyond = 1.001f * hit.distance;
       EXPECT_GT(tree.first_hit(from, along, 5, beyond).distance, hit.distance);
     }
+  }
+}
+
+TEST(TriangleTree, bundles_find_what_single_rays_find) {
+  for (std::uint32_t seed = 1; seed <= 20; ++seed) {
+    test::Random random(seed);
+    const auto place = [&] {
+      return Vec3d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1))
+          .cast<float>()
+          .eval();
+    };
+    std::vector<TriangleTree::Corners> triangles;
+    std::vector<bool> has_hole;
+    for (std::uint32_t i = 0; i < 20 * seed; ++i) {
+      const Vec3f a = place();
+      triangles.push_back({a, Vec3f(a + 0.5f * place()), Vec3f(a + 0.5f * place())});
+      has_hole.push_back(random.index(3) == 0);
+    }
+    const TriangleTree tree(triangles,
+                            {has_hole, [](Index, const Vec3f& shares, TriangleTree::Ray) {
+                               return shares.maxCoeff() < 0.5f;
+                             }});
+    for (int i = 0; i < 100; ++i) {
+      const Vec3f from = 2 * place();
+      std::array<Vec3f, TriangleTree::kBundle> along;
+      for (Vec3f& ray : along) ray = place() - from;
+      if (i % 10 == 0) along[2] = Vec3f::Constant(std::numeric_limits<float>::infinity());
+      const auto hits = tree.first_hits(from, along);
+      const std::size_t count = 1 + random.index(TriangleTree::kBundle);
+      const auto blocked = tree.are_blocked(from, std::span(along).first(count));
+      for (std::size_t k = 0; k < along.size(); ++k) {
+        const TriangleTree::Hit single = tree.first_hit(from, along[k]);
+        EXPECT_EQ(hits[k].triangle, single.triangle);
+        EXPECT_NEAR(hits[k].distance, single.triangle == kNone ? 0 : single.distance, 1e-5f);
+        EXPECT_EQ(blocked[k], k < count && tree.is_blocked(from, along[k]));
+      }
+    }
+  }
+}
+
+TEST(Lighting, directions_across_a_normal_turn_smoothly_with_it) {
+  test::Random random(5);
+  const Lighting lighting({{1, 2, 4}, {0.2, 0.1, 0}, {0, 1, 0}, 30});
+  const Vec3f back = Vec3f(0.8f, 1.9f, 4.0f).normalized();
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3f normal = random.direction().cast<float>();
+    if (normal.dot(back) < -0.5f) continue;
+    const auto [side, other] = lighting.across(normal);
+    EXPECT_NEAR(side.norm(), 1, 1e-4f);
+    EXPECT_NEAR(other.norm(), 1, 1e-4f);
+    EXPECT_LT((side.cross(other) - normal).norm(), 1e-4f);
+    const Vec3f beside = (normal + 1e-3f * random.direction().cast<float>()).normalized();
+    const auto [side_beside, other_beside] = lighting.across(beside);
+    EXPECT_LT((side - side_beside).norm() + (other - other_beside).norm(), 1e-2f);
   }
 }
 

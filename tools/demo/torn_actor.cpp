@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "tools/picture/taper_wounds.h"
+
 namespace sunder::tools {
 
 TornActor::TornActor(GapingModel model, TearOperation tear, ModelPose pose)

@@ -8,6 +8,7 @@
 
 #include "tools/model/history.h"
 #include "tools/picture/open_lips.h"
+#include "tools/picture/taper_wounds.h"
 
 namespace sunder::tools {
 namespace {

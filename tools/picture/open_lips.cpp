@@ -18,7 +18,6 @@ namespace {
 /// within these fractions of the model's diagonal.
 constexpr double kRangeOfLength = 0.25, kLeastRange = 0.02, kMostRange = 0.075;
 constexpr double kFirstTension = 1.0;  ///< Newtons per metre, to begin the search with.
-constexpr double kTaper = 0.4;         ///< Of a wound's length, at each end.
 constexpr int kMostLipSteps = 180;
 constexpr std::size_t kMostRays = 200, kFewestRays = 16;  ///< Of all wounds, and of each of them.
 
@@ -203,71 +202,6 @@ std::vector<DeformedMesh> drawn(CharacterInstance& instance) {
     meshes[m].tangents.assign(mesh.tangents.begin(), mesh.tangents.end());
   }
   return meshes;
-}
-
-namespace {
-
-/// The vertices of each point of some wounds.
-using VerticesOfPoint = std::map<std::uint32_t, std::vector<std::array<std::uint32_t, 2>>>;
-
-VerticesOfPoint vertices_of(const CharacterInstance& instance, std::span<const Wound> wounds) {
-  VerticesOfPoint vertices;
-  for (const Wound& wound : wounds)
-    for (const LipPair& pair : wound.lips) {
-      vertices[pair.left];
-      vertices[pair.right];
-    }
-  for (std::uint32_t m = 0; m < instance.character().meshes.size(); ++m) {
-    const std::span<const std::uint32_t> points = instance.particles()->vertex_points(m);
-    for (std::uint32_t v = 0; v < points.size(); ++v)
-      if (const auto found = vertices.find(points[v]); found != vertices.end())
-        found->second.push_back({m, v});
-  }
-  return vertices;
-}
-
-/// The share of its greatest width that a wound may have at a distance from one of its ends.
-double taper(double from_end, double length) {
-  const double t = 1 - std::min(1.0, from_end / (kTaper * length));
-  return std::sqrt(std::max(0.0, 1 - t * t));
-}
-
-}  // namespace
-
-void taper_wounds(const CharacterInstance& instance, std::span<const Wound> wounds,
-                  const std::vector<DeformedMesh>& closed, std::vector<DeformedMesh>& open) {
-  const VerticesOfPoint vertices = vertices_of(instance, wounds);
-  const auto place = [&vertices](const std::vector<DeformedMesh>& meshes, std::uint32_t point) {
-    const auto& of = vertices.at(point);
-    return of.empty() ? Vec3f(Vec3f::Zero()) : meshes[of[0][0]].positions[of[0][1]];
-  };
-  for (const Wound& wound : wounds) {
-    std::vector<double> along;
-    double length = 0, widest = 0;
-    for (std::size_t i = 0; i < wound.lips.size(); ++i) {
-      const Vec3f here = place(closed, wound.lips[i].left);
-      if (i > 0)
-        length += static_cast<double>((here - place(closed, wound.lips[i - 1].left)).norm());
-      along.push_back(length);
-      const Vec3f gap = place(open, wound.lips[i].left) - place(open, wound.lips[i].right);
-      widest = std::max(widest, static_cast<double>(gap.norm()));
-    }
-    if (!(length > 0) || !(widest > 0)) continue;
-    const double step = length / static_cast<double>(wound.lips.size());  // Beyond the last pairs.
-    for (std::size_t i = 0; i < wound.lips.size(); ++i) {
-      const LipPair& pair = wound.lips[i];
-      const Vec3f gap = place(open, pair.right) - place(open, pair.left);
-      const double from_end = std::min(along[i], length - along[i]) + step / 2;
-      const double width = static_cast<double>(gap.norm()),
-                   allowed = widest * taper(from_end, length + step);
-      if (width <= allowed) continue;
-      const Vec3f move = static_cast<float>((width - allowed) / (2 * width)) * gap;
-      for (const auto& [mesh, vertex] : vertices.at(pair.left))
-        open[mesh].positions[vertex] += move;
-      for (const auto& [mesh, vertex] : vertices.at(pair.right))
-        open[mesh].positions[vertex] -= move;
-    }
-  }
 }
 
 void displace(CharacterInstance& instance, std::vector<DeformedMesh>& posed) {

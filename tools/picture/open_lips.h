@@ -51,10 +51,4 @@ struct GapingModel {
 /// Moves posed vertices by the displacements of the last draw(), with mend_normals().
 void displace(CharacterInstance& instance, std::vector<DeformedMesh>& posed);
 
-/// Narrows wounds towards their ends like ellipses, where particles leave them blunt: moves points
-/// of the two lips towards each other.
-/// @param closed, open  in one pose, of the instance.
-void taper_wounds(const CharacterInstance& instance, std::span<const Wound> wounds,
-                  const std::vector<DeformedMesh>& closed, std::vector<DeformedMesh>& open);
-
 }  // namespace sunder::tools

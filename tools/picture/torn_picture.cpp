@@ -15,6 +15,7 @@
 #include "tools/model/posed_model.h"
 #include "tools/picture/open_lips.h"
 #include "tools/picture/rims.h"
+#include "tools/picture/taper_wounds.h"
 #include "tools/picture/torn_scene.h"
 #include "tools/picture/view.h"
 #include "tools/picture/wound_view.h"

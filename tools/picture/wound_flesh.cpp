@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <numbers>
+#include <queue>
+#include <utility>
 
 #include "tools/render/triangle_tree.h"
 
@@ -17,7 +20,7 @@ using Section = WoundFlesh::Section;
 using Vertex = WoundFlesh::Vertex;
 constexpr float kDepthOfGap = 0.8f, kDepthOfThickness = 0.4f;
 constexpr float kRednessOfLength = 0.055f;
-constexpr int kSmoothing = 6, kDepthPasses = 60;
+constexpr int kSmoothing = 6;
 
 Vec3f place(const std::vector<DeformedMesh>& posed, std::uint32_t mesh, std::uint32_t vertex) {
   return posed[mesh].positions[vertex];
@@ -181,27 +184,39 @@ void WoundFlesh::measure(const TornModel& torn, const std::vector<DeformedMesh>&
       x = (x + lesser) / 2;
       y = (y + lesser) / 2;
     }
-  std::vector<bool> is_placed(sections_.size(), false);
-  // Spans come in any order: each pass places those that touch what is placed.
-  for (bool goes_on = true; goes_on;) {
-    goes_on = false;
-    for (const auto& [a, b, edge] : spans_) {
-      if (is_placed[a] && is_placed[b]) continue;
-      const float step = (place(closed, sections_[a].left.mesh, sections_[a].left.vertex) -
-                          place(closed, sections_[b].left.mesh, sections_[b].left.vertex))
-                             .norm();
-      if (is_placed[a])
-        sections_[b].along = sections_[a].along + step;
-      else if (is_placed[b])
-        sections_[a].along = sections_[b].along - step;
-      else if (!goes_on)
-        sections_[b].along = sections_[a].along + step;
-      else
-        continue;
-      is_placed[a] = is_placed[b] = goes_on = true;
-      length_ += step;
-    }
+  place_along(closed);
+}
+
+/// The shortest way along the lips from an end of the wound, so that neighbours are never farther
+/// apart than the edge between them, also where a wound is a ring or forks.
+void WoundFlesh::place_along(const std::vector<DeformedMesh>& closed) {
+  struct Step {
+    std::uint32_t to;
+    float length;
+  };
+  std::vector<std::vector<Step>> steps(sections_.size());
+  for (const auto& [a, b, length] : edges_along(closed)) {
+    steps[a].push_back({b, length});
+    steps[b].push_back({a, length});
+    length_ += length;
   }
+  std::vector<bool> is_placed(sections_.size(), false);
+  const auto place_from = [&](std::uint32_t start) {
+    using Reached = std::pair<float, std::uint32_t>;  // The way, and the section.
+    std::priority_queue<Reached, std::vector<Reached>, std::greater<>> next;
+    next.push({0.0f, start});
+    while (!next.empty()) {
+      const auto [along, section] = next.top();
+      next.pop();
+      if (is_placed[section]) continue;
+      is_placed[section] = true;
+      sections_[section].along = along;
+      for (const Step& step : steps[section]) next.push({along + step.length, step.to});
+    }
+  };
+  for (const bool from_ends : {true, false})  // Rings have no end.
+    for (std::uint32_t s = 0; s < sections_.size(); ++s)
+      if (!is_placed[s] && (!from_ends || steps[s].size() == 1)) place_from(s);
 }
 
 void WoundFlesh::find_joints(const TornModel& torn) {
@@ -281,12 +296,46 @@ WoundFlesh::Ground WoundFlesh::ground(const std::vector<DeformedMesh>& closed,
     const Vec3f normal = (ground.open[at[1]] - a).cross(ground.open[at[2]] - a);
     for (const std::size_t corner : at) ground.normals[corner] += normal;
   }
+  smooth_normals(closed, beds, ground);
+  return ground;
+}
+
+void WoundFlesh::smooth_normals(const std::vector<DeformedMesh>& closed,
+                                const std::vector<Bed>& beds, Ground& ground) const {
+  const auto unit_or = [](const Vec3f& normal, const Vec3f& other) {
+    return normal.norm() > 0 ? Vec3f(normal.normalized()) : other;
+  };
+  const std::size_t row = ground.across + 1;
+  Eigen::MatrixXd normals(beds.size(), 3 * row);
   for (std::size_t i = 0; i < ground.normals.size(); ++i) {
     Vec3f& normal = ground.normals[i];
-    const std::size_t section = std::min(i / (across + 1), beds.size() - 1);
-    normal = normal.norm() > 0 ? Vec3f(normal.normalized()) : beds[section].outwards;
+    const std::size_t section = std::min(i / row, beds.size() - 1);
+    normal = unit_or(normal, beds[section].outwards);
+    if (i < row * beds.size())
+      normals.block<1, 3>(static_cast<Eigen::Index>(section),
+                          static_cast<Eigen::Index>(3 * (i % row))) =
+          normal.cast<double>().transpose();
   }
-  return ground;
+  const std::vector<bool> is_fixed(beds.size());
+  normals = SmoothAlong(edges_along(closed), is_fixed, ground.widest / 2).smoothed(normals);
+  for (std::size_t i = 0; i < row * beds.size(); ++i)
+    ground.normals[i] = unit_or(normals
+                                    .block<1, 3>(static_cast<Eigen::Index>(i / row),
+                                                 static_cast<Eigen::Index>(3 * (i % row)))
+                                    .transpose()
+                                    .cast<float>(),
+                                ground.normals[i]);
+}
+
+std::vector<SmoothAlong::Edge> WoundFlesh::edges_along(
+    const std::vector<DeformedMesh>& closed) const {
+  std::vector<SmoothAlong::Edge> edges;
+  for (const auto& [a, b, edge] : spans_)
+    edges.push_back({a, b,
+                     (place(closed, sections_[a].left.mesh, sections_[a].left.vertex) -
+                      place(closed, sections_[b].left.mesh, sections_[b].left.vertex))
+                         .norm()});
+  return edges;
 }
 
 void WoundFlesh::add(const std::vector<DeformedMesh>& closed, const std::vector<DeformedMesh>& open,
@@ -321,7 +370,6 @@ std::vector<WoundFlesh::Bed> WoundFlesh::make_beds(const std::vector<DeformedMes
                                                    const std::vector<DeformedMesh>& open,
                                                    float& widest) const {
   std::vector<Bed> beds;
-  std::vector<float> limits;
   for (const Section& section : sections_) {
     Bed bed;
     bed.left = place(open, section.left.mesh, section.left.vertex);
@@ -332,30 +380,25 @@ std::vector<WoundFlesh::Bed> WoundFlesh::make_beds(const std::vector<DeformedMes
     const float gap = (bed.right - bed.left).norm();
     widest = std::max(widest, gap);
     bed.depth = std::min(kDepthOfGap * gap, kDepthOfThickness * section.thickness);
-    limits.push_back(bed.depth);
     beds.push_back(bed);
   }
   // Gaps are uneven; the ground between the lips is not. It ends where the lips meet.
-  std::vector<float> sums(beds.size());
-  std::vector<int> counts(beds.size());
-  std::vector<Vec3f> directions(beds.size());
-  for (int pass = 0; pass < kDepthPasses; ++pass) {
-    sums.assign(beds.size(), 0);
-    counts.assign(beds.size(), 0);
-    for (std::size_t s = 0; s < beds.size(); ++s) directions[s] = beds[s].outwards;
-    for (const auto& [a, b, edge] : spans_) {
-      sums[a] += beds[b].depth;
-      sums[b] += beds[a].depth;
-      ++counts[a];
-      ++counts[b];
-      directions[a] += beds[b].outwards;
-      directions[b] += beds[a].outwards;
-    }
-    for (std::size_t s = 0; s < beds.size(); ++s)
-      if (directions[s].norm() > 0) beds[s].outwards = directions[s].normalized();
-    for (std::size_t s = 0; s < beds.size(); ++s)
-      if (counts[s] > 0 && limits[s] > 0)
-        beds[s].depth = 0.5f * beds[s].depth + 0.5f * sums[s] / static_cast<float>(counts[s]);
+  std::vector<bool> is_shut;
+  Eigen::MatrixXd depths(sections_.size(), 1), directions(sections_.size(), 3);
+  for (Eigen::Index s = 0; s < depths.rows(); ++s) {
+    const Bed& bed = beds[static_cast<std::size_t>(s)];
+    is_shut.push_back(!(bed.depth > 0));
+    depths(s, 0) = static_cast<double>(bed.depth);
+    directions.row(s) = bed.outwards.cast<double>().transpose();
+  }
+  const std::vector<SmoothAlong::Edge> edges = edges_along(closed);
+  depths = SmoothAlong(edges, is_shut, widest).smoothed(depths);
+  directions = SmoothAlong(edges, std::vector<bool>(beds.size()), widest).smoothed(directions);
+  for (Eigen::Index s = 0; s < depths.rows(); ++s) {
+    Bed& bed = beds[static_cast<std::size_t>(s)];
+    bed.depth = static_cast<float>(depths(s, 0));
+    const Vec3f direction = directions.row(s).transpose().cast<float>();
+    if (direction.norm() > 0) bed.outwards = direction.normalized();
   }
   return beds;
 }

@@ -9,6 +9,7 @@
 
 #include "tools/picture/open_lips.h"
 #include "tools/picture/rims.h"
+#include "tools/picture/smooth_along.h"
 #include "tools/render/render_scene.h"
 
 namespace sunder::tools {
@@ -36,7 +37,7 @@ class WoundFlesh {
   /// Where the wound is cut across: two places that were one, equal at a tip.
   struct Section {
     Vertex left, right;
-    float along = 0;      ///< From the first section, metres.
+    float along = 0;      ///< From an end of the wound, metres.
     float thickness = 0;  ///< Of the body, metres.
 
     [[nodiscard]] bool is_tip() const { return left == right; }
@@ -94,6 +95,11 @@ class WoundFlesh {
   void add_joints(Ground& ground) const;
   void find_joints(const TornModel& torn);
   void measure(const TornModel& torn, const std::vector<DeformedMesh>& closed);
+  [[nodiscard]] std::vector<SmoothAlong::Edge> edges_along(
+      const std::vector<DeformedMesh>& closed) const;
+  void smooth_normals(const std::vector<DeformedMesh>& closed, const std::vector<Bed>& beds,
+                      Ground& ground) const;
+  void place_along(const std::vector<DeformedMesh>& closed);
 
   std::set<std::array<std::uint32_t, 2>> lip_vertices_;  ///< Mesh and vertex.
   std::vector<Section> sections_;

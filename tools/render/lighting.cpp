@@ -41,8 +41,20 @@ Lighting::Lighting(const Camera& camera) {
           Vec3d(middle + at.x() * beside + at.y() * across).normalized().cast<float>();
     }
   }
+  back_ = back.cast<float>();
+  right_ = right.cast<float>();
+  up_ = up.cast<float>();
   middle_of_lamp_ = {middle.cast<float>(), kLamp};
   fill_ = {(0.6 * back + 0.9 * right + 0.1 * up).normalized().cast<float>(), kFill};
+}
+
+Lighting::Across Lighting::across(const Vec3f& normal) const {
+  // The shortest rotation from `back` to the normal, applied to `right` and `up`: Duff et al.,
+  // "Building an Orthonormal Basis, Revisited", 2017. It jumps at -back alone, which is not seen.
+  const float x = normal.dot(right_), y = normal.dot(up_), z = std::max(normal.dot(back_), -0.999f);
+  const float a = 1 / (1 + z), b = -x * y * a;
+  return {(1 - x * x * a) * right_ + b * up_ - x * back_,
+          b * right_ + (1 - y * y * a) * up_ - y * back_};
 }
 
 Vec3f Lighting::sky_color(const Vec3f& towards) {

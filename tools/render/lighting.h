@@ -15,7 +15,7 @@ namespace sunder::tools {
 /// smooth.
 class Lighting {
  public:
-  static constexpr std::size_t kPatterns = 16, kSkyRays = 6, kLampRays = 2;
+  static constexpr std::size_t kPatterns = 16, kSkyRays = 4, kLampRays = 2;
   struct Light {
     Vec3f towards;    ///< Unit length.
     Vec3f intensity;  ///< Linear RGB.
@@ -31,6 +31,12 @@ class Lighting {
   [[nodiscard]] const std::array<Vec3f, kLampRays>& lamp(std::size_t pattern) const {
     return lamp_[pattern];
   }
+  /// Two directions across a normal, all of unit length, that turn smoothly with it for all that
+  /// face the eye: surfaces show no step where a frame would jump.
+  struct Across {
+    Vec3f side, other;
+  };
+  [[nodiscard]] Across across(const Vec3f& normal) const;
   [[nodiscard]] const Light& middle_of_lamp() const { return middle_of_lamp_; }
   [[nodiscard]] const Light& fill() const { return fill_; }
   /// The colour of the sky in a direction: paler above than below.
@@ -42,6 +48,7 @@ class Lighting {
   std::array<std::array<Vec3f, kSkyRays>, kPatterns> sky_;
   std::array<std::array<Vec3f, kLampRays>, kPatterns> lamp_;
   Light middle_of_lamp_, fill_;
+  Vec3f back_, right_, up_;  ///< Towards the eye, and across.
 };
 
 }  // namespace sunder::tools

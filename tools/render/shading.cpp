@@ -1,6 +1,7 @@
 #include "tools/render/shading.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 
@@ -56,13 +57,6 @@ Vec3f compressed(Vec3f light) {
 }
 
 }  // namespace
-
-void Shading::Light::add(const Light& other, float weight) {
-  sky += weight * other.sky;
-  whole_sky += weight * other.whole_sky;
-  lamp += weight * other.lamp;
-  whole_lamp += weight * other.whole_lamp;
-}
 
 Vec3f Shading::Light::share_of_sky() const {
   Vec3f share;
@@ -133,7 +127,7 @@ Shading::Surface Shading::surface_at(const TriangleTree::Hit& hit, const Vec3f& 
   if (material.is_flesh || is_inside) {
     const Vec2f at_flesh = material.is_flesh ? uv : inner_flesh(surface.place);
     surface.color.head<3>() = flesh_color(at_flesh.x(), at_flesh.y());
-    const Vec3f side = normal.unitOrthogonal(), other = normal.cross(side);
+    const auto [side, other] = lighting_.across(surface.smooth);
     const float size = 0.35f * normal.norm();
     const float stretch = at_flesh.y() < -1 ? 7.0f : 20.0f;
     normal += size * ((noise(7 * at_flesh.x(), stretch * at_flesh.y()) - 0.5f) * side +
@@ -162,19 +156,35 @@ Shading::Surface Shading::surface_at(const TriangleTree::Hit& hit, const Vec3f& 
 Shading::Light Shading::light_at(const Vec3f& start, const Vec3f& normal, const Vec3f& flat,
                                  std::size_t pattern, std::size_t sky_rays) const {
   Light light;
-  const Vec3f side = normal.unitOrthogonal(), other = normal.cross(side);
+  const auto [side, other] = lighting_.across(normal);
+  constexpr std::size_t kMost = Lighting::kSkyRays + Lighting::kLampRays;
+  std::array<Vec3f, kMost> towards, colors;
+  std::size_t count = 0;
   // Directions below the triangle say nothing: there, a smooth normal differs from its own.
   for (const Vec3f& local : std::span(lighting_.sky(pattern)).first(sky_rays)) {
-    const Vec3f towards = local.x() * side + local.y() * other + local.z() * normal;
-    if (flat.dot(towards) <= 0) continue;
-    const Vec3f color = Lighting::sky_color(towards);
-    light.whole_sky += color;
-    if (!tree_.is_blocked(start, towards)) light.sky += color;
+    const Vec3f direction = local.x() * side + local.y() * other + local.z() * normal;
+    if (flat.dot(direction) <= 0) continue;
+    colors[count] = Lighting::sky_color(direction);
+    light.whole_sky += colors[count];
+    towards[count++] = direction;
   }
-  for (const Vec3f& towards : lighting_.lamp(pattern)) {
-    if (flat.dot(towards) <= 0 || normal.dot(towards) <= 0) continue;
+  const std::size_t of_sky = count;
+  for (const Vec3f& direction : lighting_.lamp(pattern)) {
+    if (flat.dot(direction) <= 0 || normal.dot(direction) <= 0) continue;
     light.whole_lamp += 1;
-    if (!tree_.is_blocked(start, towards)) light.lamp += 1;
+    towards[count++] = direction;
+  }
+  const std::span rays = std::span(towards).first(count);
+  for (std::size_t first = 0; first < count; first += TriangleTree::kBundle) {
+    const auto bundle = rays.subspan(first, std::min(TriangleTree::kBundle, count - first));
+    const auto blocked = tree_.are_blocked(start, bundle);
+    for (std::size_t i = 0; i < bundle.size(); ++i)
+      if (blocked[i])
+        continue;
+      else if (first + i < of_sky)
+        light.sky += colors[first + i];
+      else
+        light.lamp += 1;
   }
   return light;
 }

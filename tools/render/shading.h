@@ -26,7 +26,12 @@ class Shading {
   struct Light {
     Vec3f sky = Vec3f::Zero(), whole_sky = Vec3f::Zero();
     float lamp = 0, whole_lamp = 0;
-    void add(const Light& other, float weight);
+    void add(const Light& other, float weight) {
+      sky += weight * other.sky;
+      whole_sky += weight * other.whole_sky;
+      lamp += weight * other.lamp;
+      whole_lamp += weight * other.whole_lamp;
+    }
     [[nodiscard]] Vec3f share_of_sky() const;   ///< Per channel, 0 to 1.
     [[nodiscard]] float share_of_lamp() const;  ///< 0 to 1.
   };
@@ -35,6 +40,11 @@ class Shading {
 
   /// The first surface on a ray beyond a distance.
   [[nodiscard]] TriangleTree::Hit find(const Vec3f& from, const Vec3f& along, float beyond) const;
+  /// The first surfaces on rays from one place.
+  [[nodiscard]] std::array<TriangleTree::Hit, TriangleTree::kBundle> find(
+      const Vec3f& from, const std::array<Vec3f, TriangleTree::kBundle>& along) const {
+    return tree_.first_hits(from, along);
+  }
   [[nodiscard]] Surface surface_at(const TriangleTree::Hit& hit, const Vec3f& from,
                                    const Vec3f& along) const;
   /// Looks in the directions of a pattern of the lighting; of the sky in the first ones.

@@ -42,26 +42,30 @@ void Tile::find_surfaces() {
     for (int x = left_; x < right_; ++x) {
       Pixel& pixel = pixels_.emplace_back();
       pixel.first_probe = static_cast<std::uint32_t>(probes_.size());
-      for (std::size_t sample = 0; sample < kSamples; ++sample) {
-        pixel.layers[sample] = static_cast<std::uint32_t>(layers_.size());
-        see(pixel, x, y, sample);
-      }
+      see(pixel, x, y);
       pixel.layers[kSamples] = static_cast<std::uint32_t>(layers_.size());
     }
 }
 
-void Tile::see(Pixel& pixel, int x, int y, std::size_t sample) {
-  const double across = x + kPlaces[sample].x(), down = y + kPlaces[sample].y();
-  const Vec3f along = view_.along(across, down);
+void Tile::see(Pixel& pixel, int x, int y) {
+  std::array<Vec3f, kSamples> along;
+  for (std::size_t sample = 0; sample < kSamples; ++sample)
+    along[sample] = view_.along(x + kPlaces[sample].x(), y + kPlaces[sample].y());
+  std::array<TriangleTree::Hit, kSamples> first;
+  if (drawn_.coverage.may_show(x, y)) first = shading_.find(view_.eye, along);
+  for (std::size_t sample = 0; sample < kSamples; ++sample) {
+    pixel.layers[sample] = static_cast<std::uint32_t>(layers_.size());
+    see_sample(pixel, x, y, along[sample], sample, first[sample]);
+  }
+}
+
+void Tile::see_sample(Pixel& pixel, int x, int y, const Vec3f& along, std::size_t sample,
+                      TriangleTree::Hit hit) {
   const float pixel_size = 2 * view_.up.norm() / static_cast<float>(view_.size.height);
-  float beyond = 0;
-  for (int i = 0; i < kMostLayers && drawn_.coverage.may_show(x, y); ++i) {
-    const TriangleTree::Hit hit = shading_.find(view_.eye, along, beyond);
-    if (hit.triangle == kNone) break;
+  for (int i = 0; hit.triangle != kNone; ++i) {
     Layer layer;
     layer.surface = shading_.surface_at(hit, view_.eye, along);
     layer.depth = hit.distance;
-    beyond = hit.distance * 1.00001f;
     const Probe probe{layer.surface.place,
                       layer.surface.smooth,
                       {},
@@ -70,6 +74,8 @@ void Tile::see(Pixel& pixel, int x, int y, std::size_t sample) {
     layer.probe = probe_at(pixel, x, y, probe, layer.surface.start, layer.surface.flat);
     layers_.push_back(layer);
     if (layer.surface.color.w() >= 0.99f) return;
+    if (i + 1 == kMostLayers) break;
+    hit = shading_.find(view_.eye, along, hit.distance * 1.00001f);
   }
   see_floor(pixel, x, y, along, sample);
 }

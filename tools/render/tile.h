@@ -26,8 +26,8 @@ struct TiledScene {
 /// the same surface. For one thread; the parts do not depend on each other.
 class Tile {
  public:
-  static constexpr int kSide = 80;            ///< Pixels.
-  static constexpr std::size_t kSamples = 4;  ///< Per pixel.
+  static constexpr int kSide = 80;                                ///< Pixels.
+  static constexpr std::size_t kSamples = TriangleTree::kBundle;  ///< Per pixel.
 
   explicit Tile(const TiledScene& drawn)
       : scene_(drawn.scene), shading_(drawn.shading), view_(drawn.view), drawn_(drawn) {}
@@ -56,7 +56,9 @@ class Tile {
     std::uint32_t floor_probe = 0;           ///< Where there are some.
   };
   void find_surfaces();
-  void see(Pixel& pixel, int x, int y, std::size_t sample);
+  void see(Pixel& pixel, int x, int y);
+  void see_sample(Pixel& pixel, int x, int y, const Vec3f& along, std::size_t sample,
+                  TriangleTree::Hit hit);
   void see_floor(Pixel& pixel, int x, int y, const Vec3f& along, std::size_t sample);
   [[nodiscard]] std::uint32_t probe_at(Pixel& pixel, int x, int y, const Probe& wanted,
                                        const Vec3f& start, const Vec3f& flat);

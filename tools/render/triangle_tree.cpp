@@ -1,5 +1,6 @@
 #include "tools/render/triangle_tree.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <embree3/rtcore.h>
 #include <new>
@@ -104,6 +105,21 @@ bool is_sound(const Vec3f& from, const Vec3f& along, float nearest, float farthe
          nearest <= farthest;
 }
 
+/// Rays from one place, as Embree takes four; those without a sound direction are marked as left
+/// out.
+void set_rays(const Vec3f& from, std::span<const Vec3f> along, RTCRay4& rays,
+              std::array<int, TriangleTree::kBundle>& valid) {
+  for (std::size_t i = 0; i < TriangleTree::kBundle; ++i) {
+    const bool is_there = i < along.size() && is_sound(from, along[i], 0, TriangleTree::kFar);
+    const Vec3f direction = is_there ? along[i] : Vec3f::UnitX();
+    valid[i] = is_there ? -1 : 0;
+    rays.org_x[i] = from.x(), rays.org_y[i] = from.y(), rays.org_z[i] = from.z();
+    rays.dir_x[i] = direction.x(), rays.dir_y[i] = direction.y(), rays.dir_z[i] = direction.z();
+    rays.tfar[i] = TriangleTree::kFar;
+    rays.mask[i] = ~0u;
+  }
+}
+
 }  // namespace
 
 TriangleTree::TriangleTree(std::span<const Corners> triangles) : TriangleTree(triangles, {}) {}
@@ -133,6 +149,36 @@ bool TriangleTree::is_blocked(const Vec3f& from, const Vec3f& along, float farth
   rtcInitIntersectContext(&context);
   rtcOccluded1(state_->scene, &context, &ray);
   return ray.tfar < 0;
+}
+
+std::array<TriangleTree::Hit, TriangleTree::kBundle> TriangleTree::first_hits(
+    const Vec3f& from, const std::array<Vec3f, kBundle>& along) const {
+  alignas(16) std::array<int, kBundle> valid;
+  RTCRayHit4 query = {};
+  set_rays(from, along, query.ray, valid);
+  std::ranges::fill(query.hit.geomID, RTC_INVALID_GEOMETRY_ID);
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcIntersect4(valid.data(), state_->scene, &context, &query);
+  std::array<Hit, kBundle> hits;
+  for (std::size_t i = 0; i < kBundle; ++i)
+    if (const unsigned part = query.hit.geomID[i]; part != RTC_INVALID_GEOMETRY_ID)
+      hits[i] = {state_->given[part][query.hit.primID[i]], query.ray.tfar[i]};
+  return hits;
+}
+
+std::array<bool, TriangleTree::kBundle> TriangleTree::are_blocked(
+    const Vec3f& from, std::span<const Vec3f> along) const {
+  alignas(16) std::array<int, kBundle> valid;
+  RTCRay4 rays = {};
+  set_rays(from, along, rays, valid);
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded4(valid.data(), state_->scene, &context, &rays);
+  std::array<bool, kBundle> blocked;
+  for (std::size_t i = 0; i < kBundle; ++i) blocked[i] = valid[i] != 0 && rays.tfar[i] < 0;
+  return blocked;
 }
 
 }  // namespace sunder::tools

@@ -45,6 +45,14 @@ class TriangleTree {
   /// Whether anything lies between a place and `farthest` lengths of the direction.
   [[nodiscard]] bool is_blocked(const Vec3f& from, const Vec3f& along, float farthest = kFar) const;
 
+  static constexpr std::size_t kBundle = 4;  ///< Rays that Embree follows at once.
+  /// The same for rays from one place, without a farthest distance; faster than one by one.
+  [[nodiscard]] std::array<Hit, kBundle> first_hits(const Vec3f& from,
+                                                    const std::array<Vec3f, kBundle>& along) const;
+  /// Per ray: whether it is blocked. At most kBundle rays.
+  [[nodiscard]] std::array<bool, kBundle> are_blocked(const Vec3f& from,
+                                                      std::span<const Vec3f> along) const;
+
   static constexpr float kFar = std::numeric_limits<float>::max() / 4;
 
  private:

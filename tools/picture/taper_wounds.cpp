@@ -1,0 +1,177 @@
+#include "tools/picture/taper_wounds.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <map>
+#include <queue>
+#include <utility>
+
+namespace sunder::tools {
+namespace {
+
+constexpr double kTaper = 0.4;  ///< Of a wound's length, at each end.
+constexpr int kRings = 5;       ///< Around lips, whose points follow them.
+constexpr int kPasses = 24;     ///< Over these points.
+constexpr double kFar = std::numeric_limits<double>::infinity();
+
+/// The points of a character's surface in one pose, and which are joined by edges.
+class Points {
+ public:
+  Points(const CharacterInstance& instance, const std::vector<DeformedMesh>& meshes)
+      : places_(instance.particles()->point_count(), Vec3f::Zero()) {
+    for (std::uint32_t m = 0; m < meshes.size(); ++m) {
+      const std::span<const std::uint32_t> points = instance.particles()->vertex_points(m);
+      for (std::uint32_t v = 0; v < points.size(); ++v)
+        if (points[v] < places_.size()) places_[points[v]] = meshes[m].positions[v];
+      for (const Triangle& triangle : instance.character().meshes[m].triangles)
+        for (std::size_t c = 0; c < 3 && !is_retired(triangle); ++c) {
+          const std::uint32_t a = points[triangle[c]], b = points[triangle[(c + 1) % 3]];
+          if (a >= places_.size() || b >= places_.size()) continue;
+          edges_.push_back({a, b});
+          edges_.push_back({b, a});
+        }
+    }
+    std::sort(edges_.begin(), edges_.end());
+  }
+
+  [[nodiscard]] const Vec3f& place(std::uint32_t point) const { return places_[point]; }
+  [[nodiscard]] double distance(std::uint32_t a, std::uint32_t b) const {
+    return static_cast<double>((places_[a] - places_[b]).norm());
+  }
+  template <class Visit>
+  void for_each_neighbour(std::uint32_t point, Visit&& visit) const {
+    const auto first =
+        std::lower_bound(edges_.begin(), edges_.end(), std::array<std::uint32_t, 2>{point, 0});
+    for (auto edge = first; edge != edges_.end() && (*edge)[0] == point; ++edge) visit((*edge)[1]);
+  }
+
+ private:
+  std::vector<Vec3f> places_;
+  std::vector<std::array<std::uint32_t, 2>> edges_;
+};
+
+/// Distances along lips from the nearest tip, where the two lips of a wound are one point.
+class FromTips {
+ public:
+  FromTips(const CharacterInstance& instance, std::span<const Wound> wounds, const Points& points) {
+    for (const Wound& wound : wounds)
+      for (const LipPair& pair : wound.lips)
+        if (pair.left != pair.right) distances_[pair.left] = distances_[pair.right] = kFar;
+    std::map<std::uint32_t, std::vector<std::uint32_t>> beside;
+    for (const LipEdge& edge : instance.particles()->lips()) {
+      beside[edge.points[0]].push_back(edge.points[1]);
+      beside[edge.points[1]].push_back(edge.points[0]);
+    }
+    using Reached = std::pair<double, std::uint32_t>;
+    std::priority_queue<Reached, std::vector<Reached>, std::greater<>> next;
+    for (const auto& [point, others] : beside)
+      if (!distances_.contains(point)) next.push({0.0, point});
+    while (!next.empty()) {
+      const auto [distance, point] = next.top();
+      next.pop();
+      double& known = distances_.try_emplace(point, kFar).first->second;
+      if (known <= distance) continue;
+      known = distance;
+      for (const std::uint32_t other : beside.at(point))
+        next.push({distance + points.distance(point, other), other});
+    }
+  }
+
+  [[nodiscard]] double of(const LipPair& pair) const {
+    return std::min(distances_.at(pair.left), distances_.at(pair.right));
+  }
+
+ private:
+  std::map<std::uint32_t, double> distances_;
+};
+
+/// Half of the lips that a wound has.
+double length_of(const CharacterInstance& instance, const Wound& wound, const Points& points) {
+  std::map<std::uint32_t, bool> is_lip;
+  for (const LipPair& pair : wound.lips) is_lip[pair.left] = is_lip[pair.right] = true;
+  double length = 0;
+  for (const LipEdge& edge : instance.particles()->lips())
+    if (is_lip.contains(edge.points[0]) || is_lip.contains(edge.points[1]))
+      length += points.distance(edge.points[0], edge.points[1]) / 2;
+  return length;
+}
+
+/// The share of its greatest width that a wound may have at a distance from one of its ends.
+double taper(double from_end, double length) {
+  const double t = 1 - std::min(1.0, from_end / (kTaper * length));
+  return std::sqrt(std::max(0.0, 1 - t * t));
+}
+
+using Moves = std::map<std::uint32_t, Vec3f>;  ///< Of points.
+
+/// Lets the points around those that are moved follow them, the more the shorter the edges between
+/// them are.
+void spread(const Points& points, const std::map<std::uint32_t, bool>& is_lip, Moves& moves) {
+  std::vector<std::uint32_t> ring, followers;
+  for (const auto& [point, move] : moves) ring.push_back(point);
+  for (int i = 0; i < kRings; ++i) {
+    std::vector<std::uint32_t> next;
+    for (const std::uint32_t point : ring)
+      points.for_each_neighbour(point, [&](std::uint32_t other) {
+        if (is_lip.contains(other) || !moves.try_emplace(other, Vec3f::Zero()).second) return;
+        next.push_back(other);
+      });
+    followers.insert(followers.end(), next.begin(), next.end());
+    ring = std::move(next);
+  }
+  for (int pass = 0; pass < kPasses; ++pass)
+    for (const std::uint32_t point : followers) {
+      Vec3f sum = Vec3f::Zero();
+      float weights = 0;
+      points.for_each_neighbour(point, [&](std::uint32_t other) {
+        const auto length = static_cast<float>(points.distance(point, other));
+        const float weight = 1 / std::max(length, std::numeric_limits<float>::min());
+        const auto found = moves.find(other);
+        if (found != moves.end()) sum += weight * found->second;
+        weights += weight;
+      });
+      if (weights > 0 && std::isfinite(weights)) moves[point] = sum / weights;
+    }
+}
+
+}  // namespace
+
+void taper_wounds(const CharacterInstance& instance, std::span<const Wound> wounds,
+                  const std::vector<DeformedMesh>& closed, std::vector<DeformedMesh>& open) {
+  const Points at_rest(instance, closed), opened(instance, open);
+  const FromTips from_tips(instance, wounds, at_rest);
+  Moves moves;
+  std::map<std::uint32_t, bool> is_lip;
+  for (const LipEdge& edge : instance.particles()->lips())
+    for (const std::uint32_t point : edge.points) is_lip[point] = true;
+  for (const Wound& wound : wounds) {
+    const double length = length_of(instance, wound, at_rest);
+    double widest = 0;
+    for (const LipPair& pair : wound.lips)
+      widest = std::max(widest, opened.distance(pair.left, pair.right));
+    if (!(length > 0) || !(widest > 0)) continue;
+    for (const LipPair& pair : wound.lips) {
+      if (pair.left == pair.right) continue;
+      const double width = opened.distance(pair.left, pair.right),
+                   allowed = widest * taper(from_tips.of(pair), length);
+      if (!(width > allowed)) continue;
+      const Vec3f move = static_cast<float>((width - allowed) / (2 * width)) *
+                         (opened.place(pair.right) - opened.place(pair.left));
+      moves[pair.left] = move;
+      moves[pair.right] = -move;
+    }
+  }
+  spread(at_rest, is_lip, moves);
+  for (std::uint32_t m = 0; m < open.size(); ++m) {
+    const std::span<const std::uint32_t> points = instance.particles()->vertex_points(m);
+    for (std::uint32_t v = 0; v < points.size(); ++v)
+      if (const auto found = moves.find(points[v]); found != moves.end())
+        open[m].positions[v] += found->second;
+  }
+}
+
+}  // namespace sunder::tools
