@@ -49,7 +49,7 @@ function(sunder_module name)
   endif()
   sunder_compile_options(${target})
   if(arg_IN_FRAME)
-    target_compile_options(${target} PRIVATE $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU,Clang>>:-O3>)
+    target_compile_options(${target} PRIVATE $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU,Clang,AppleClang>>:-O3>)
   endif()
   set_property(GLOBAL APPEND PROPERTY SUNDER_MODULES ${target})
 endfunction()
@@ -57,6 +57,13 @@ endfunction()
 # Warnings, and the same bits at every optimisation level: no fused multiply-add. errno is not used, so square roots need not be
 # calls.
 function(sunder_compile_options target)
+  if(MSVC)  # Nobody has run it. It fuses nothing by default since Visual Studio 2022.
+    target_compile_options(${target} PRIVATE /W4 /fp:precise /permissive- /utf-8 /bigobj /Zc:__cplusplus /Zc:preprocessor)
+    if(SUNDER_WARNINGS_AS_ERRORS)
+      target_compile_options(${target} PRIVATE /WX)
+    endif()
+    return()
+  endif()
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -ffp-contract=off
     -fno-math-errno)
   get_target_property(is_unity ${target} UNITY_BUILD)
