@@ -240,8 +240,9 @@ typedef struct sunder_load_options {
   uint32_t is_strict;               /* 1: refuses what would otherwise be repaired or dropped */
   uint64_t maximum_bytes;           /* of the model and all files to which it refers */
   uint64_t maximum_memory;          /* 0: 20 times the bytes, at least 64 MiB */
-  sunder_read_file read_file;       /* null: the model may refer to no other file. Kept until the
-                                       character is destroyed */
+  sunder_read_file read_file;       /* null: the model may refer to no other file. Kept and called
+                                       until the character, and all assets and scenes that were made
+                                       from it, are destroyed */
   sunder_release_file release_file; /* may be null */
   void* file_context;
 } sunder_load_options;

@@ -1,6 +1,5 @@
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <new>
 #include <stdexcept>
 
@@ -15,6 +14,9 @@
 namespace sunder {
 namespace {
 
+/// Metres. Within them a SurfaceFront's numbers of buckets and lengths of paths are finite floats.
+constexpr double kShortestRange = 1e-33, kLongestRange = 1e37;
+
 /// @param edge    mean length of the edges.
 /// @param report  its range in metres is written.
 Status find_range(const DecompositionOptions& options, double diagonal, double edge,
@@ -24,12 +26,10 @@ Status find_range(const DecompositionOptions& options, double diagonal, double e
     return Status::failure(StatusCode::empty_input, kNone,
                            "the model has no face that can be divided into particles");
   report.range = options.is_fraction ? options.range * diagonal : options.range;
-  if (report.range >= double{std::numeric_limits<float>::min()} &&
-      report.range <= double{std::numeric_limits<float>::max()})
-    return {};
+  if (report.range >= kShortestRange && report.range <= kLongestRange) return {};
   return Status::failure(StatusCode::invalid_argument, kNone,
-                         "the range of particles is %g m; it must be a finite float above 0",
-                         report.range);
+                         "the range of particles is %g m; it must be from %g to %g", report.range,
+                         kShortestRange, kLongestRange);
 }
 
 }  // namespace

@@ -55,9 +55,11 @@ Result<TearReport> detach_piece(tear::OperationTask& task, TornModel& model,
 Status run_task(tear::OperationTask& task) {
   Result<TornModel> made = TornModel::create(task.asset->character());
   if (!made) return made.error();
-  if (Status status = made->set_weights(task.weights); !status) return status;
+  // Operations of a history that name no weights were done with those of a new model. With other
+  // weights the replica would have other rows than the model into which its last ones are swapped.
   for (const Operation& operation : task.history)
     if (Result<TearReport> done = apply_operation(*made, operation); !done) return done.error();
+  if (Status status = made->set_weights(task.weights); !status) return status;
   const std::uint32_t before = made->undo_count();
   std::vector<ChangeRecord> changes;
   std::vector<ChangeRecord>* const wanted = task.observer ? &changes : nullptr;

@@ -154,7 +154,8 @@ Result<TearStroke> TearStroke::create(TornModel& model, const ModelPose& pose, c
     tear::assign_pose(pose, operation.pose);
     operation.stroke.assign(1, blade);
     operation.options = options;
-    operation.options.weights = recorded(options.weights.value_or(of_model.weights));
+    operation.options.weights =
+        recorded(options.weights.value_or(of_model.weights), of_model.weights);
     of_model.stroke.begin(blade, options);
     auto state = std::unique_ptr<State>(new State{&of_model, sampling, entry, operation});
     state->begin = of_model.begin_operation(options.wall_depth > 0);

@@ -59,7 +59,7 @@ Result<TearReport> TornModel::tear(const ModelPose& pose, std::span<const Blade>
   const auto write_entry = [&](TearOperation& entry) {
     entry.stroke.assign(stroke.begin(), stroke.end());
     entry.options = options;
-    entry.options.weights = recorded(weights);
+    entry.options.weights = recorded(weights, state.weights);
   };
   const auto work = [&](tear::Outcome& outcome) {
     state.stroke.begin(stroke.front(), options);
@@ -83,7 +83,7 @@ Result<TearReport> TornModel::cut(const ModelPose& pose, const PlaneCut& cut,
   if (Status status = validate_weights(weights); !status) return status;
   const auto write_entry = [&](CutOperation& entry) {
     entry.cut = cut;
-    entry.cut.weights = recorded(weights);
+    entry.cut.weights = recorded(weights, state.weights);
   };
   const auto work = [&](tear::Outcome& outcome) {
     tear::cut_surface(cut, state.workpiece(), outcome);
@@ -100,7 +100,7 @@ Result<TearReport> TornModel::drill(const ModelPose& pose, const Bore& bore, Cha
   if (Status status = validate_weights(weights); !status) return status;
   const auto write_entry = [&](DrillOperation& entry) {
     entry.bore = bore;
-    entry.bore.weights = recorded(weights);
+    entry.bore.weights = recorded(weights, state.weights);
   };
   const auto work = [&](tear::Outcome& outcome) {
     tear::drill_surface(bore, state.workpiece(), outcome);

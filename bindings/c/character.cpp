@@ -20,6 +20,8 @@ class CallbackFiles : public FileResolver {
     const std::uint8_t* data = nullptr;
     std::uint64_t size = 0;
     const std::string name(uri);
+    if (name.find('\0') != std::string::npos)  // the program would get another name
+      return Status::failure(StatusCode::path_not_allowed, kNone, "the name contains a NUL");
     const sunder_status status =
         options_.read_file(options_.file_context, name.c_str(), &data, &size);
     if (status != SUNDER_OK || (data == nullptr && size > 0))

@@ -24,6 +24,18 @@ std::string step_between(const Json& parent, const Json& value) {
   return "/";
 }
 
+/// In C a text ends at a NUL: different names would be equal there, or empty. U+FFFD replaces each.
+std::string without_nuls(const std::string& text) {
+  if (text.find('\0') == std::string::npos) return text;
+  std::string result;
+  for (const char letter : text)
+    if (letter == '\0')
+      result += "\xEF\xBF\xBD";
+    else
+      result += letter;
+  return result;
+}
+
 /// The value as an index or a size, if it is one beyond doubt.
 std::optional<std::uint64_t> plain_unsigned(const Json* value) {
   if (value == nullptr || !value->is_number_unsigned()) return std::nullopt;
@@ -134,8 +146,8 @@ bool Cursor::bool_or(const char* key, bool otherwise) const {
 
 std::string Cursor::name() const {
   const Json* const found = find_member("name");
-  return found != nullptr && found->is_string() ? found->get_ref<const std::string&>()
-                                                : std::string();
+  if (found == nullptr || !found->is_string()) return {};
+  return without_nuls(found->get_ref<const std::string&>());
 }
 
 std::size_t count_of(const Json& document, const char* list) {

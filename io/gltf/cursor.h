@@ -44,7 +44,7 @@ class Cursor {
   [[nodiscard]] std::uint64_t unsigned_or(const char* key, std::uint64_t otherwise) const;
   [[nodiscard]] bool bool_or(const char* key, bool otherwise) const;
   [[nodiscard]] std::string name()
-      const;  ///< Member "name"; empty if it is absent or not a string.
+      const;  ///< Member "name" without NULs; empty if it is absent or not a string.
 
  private:
   [[nodiscard]] const Json* find_member(const char* key) const;

@@ -141,7 +141,8 @@ std::vector<std::byte> GlbDraft::finish() {
     buffers[0]["byteLength"] = binary_.size();
   }
   binary_.resize((binary_.size() + 3) / 4 * 4);
-  std::string text = json.dump();
+  // Names in a Character may contain any bytes; JSON is UTF-8.
+  std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
   text.resize((text.size() + 3) / 4 * 4, ' ');
   const std::size_t total = 12 + 8 + text.size() + (binary_.empty() ? 0 : 8 + binary_.size());
   if (total > std::numeric_limits<std::uint32_t>::max())

@@ -94,7 +94,7 @@ WeightOptions read_weight_options(const Place& place) {
   WeightOptions options;
   read_if_given(place, "policy", read_policy, options.policy);
   const auto read_influences = [](const Place& influences) {
-    return read_integer(influences, "influences, 0 for all");
+    return read_integer(influences, "influences, 0 for all", 0, kNone);
   };
   read_if_given(place, "influences", read_influences, options.maximum_influences);
   if (options.policy == WeightPolicy::exact && options.maximum_influences != 0)

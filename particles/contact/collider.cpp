@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/internal/ordered.h"
+#include "particles/internal/recorded_limits.h"
 
 namespace sunder {
 namespace {
@@ -59,20 +60,25 @@ SurfaceDistance distance_to(const Collider& collider, const Vec3d& place) {
 Status validate_collider(const Collider& collider) {
   if (!collider.place.allFinite())
     return Status::failure(StatusCode::non_finite_value, kNone, "its place is not finite");
+  if (collider.place.cwiseAbs().maxCoeff() > particles::kMostRecordedLength)
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "its place is farther than %g m from the origin",
+                           particles::kMostRecordedLength);
   if (!collider.turn.coeffs().allFinite())
     return Status::failure(StatusCode::non_finite_value, kNone, "its turn is not finite");
   if (const double length = norm(collider.turn); std::abs(length - 1) > 1e-3)
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "its turn has length %g; it must be 1", length);
-  if (!std::isfinite(collider.friction) || collider.friction < 0)
+  if (!(collider.friction >= 0 && collider.friction <= particles::kMostRecordedForce))
     return Status::failure(StatusCode::invalid_argument, kNone,
-                           "its friction is %g; it must be finite and not below 0",
-                           collider.friction);
+                           "its friction is %g; it must be from 0 to %g", collider.friction,
+                           particles::kMostRecordedForce);
   const auto check = [](const char* name, double value, bool may_be_zero) {
-    if (std::isfinite(value) && (value > 0 || (may_be_zero && value == 0))) return Status();
+    if ((value > 0 || (may_be_zero && value == 0)) && value <= particles::kMostRecordedLength)
+      return Status();
     return Status::failure(StatusCode::invalid_argument, kNone,
-                           "its %s is %g; it must be finite and %s 0", name, value,
-                           may_be_zero ? "not below" : "above");
+                           "its %s is %g m; it must be %s 0 and at most %g", name, value,
+                           may_be_zero ? "not below" : "above", particles::kMostRecordedLength);
   };
   if (const auto* sphere = std::get_if<Collider::Sphere>(&collider.shape))
     return check("radius", sphere->radius, false);

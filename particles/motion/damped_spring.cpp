@@ -1,5 +1,6 @@
 #include "particles/motion/damped_spring.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/internal/elementary.h"
@@ -9,6 +10,11 @@ namespace {
 
 /// (1 - e^-x) / x.
 double mean_decay(double x) { return x > 0 ? -elementary::expm1(-x) / x : 1.0; }
+
+/// After whole periods without damping, a constant acceleration has moved the place by nothing. The
+/// difference of rounded numbers is 0 then, by which nobody can divide; the exact one is about the
+/// square of the rounding error.
+constexpr double kLeastResponse = 1e-32;
 
 /// The response to a unit acceleration by its power series, for steps much shorter than all times
 /// of the spring: 1 - place_from_place has few digits there. Terms t_n of g(h) = sum t_n follow
@@ -37,8 +43,9 @@ SpringStep step_spring(double stiffness, double damping_ratio, double seconds) {
     step.place_from_velocity = decay * seconds * (turn > 0 ? elementary::sin(turn) / turn : 1.0);
     step.place_from_place = cosine + rate * step.place_from_velocity;
     step.velocity_from_velocity = cosine - rate * step.place_from_velocity;
-    step.place_from_acceleration = is_short ? short_response(stiffness, 2 * rate, seconds)
-                                            : (1 - step.place_from_place) / stiffness;
+    step.place_from_acceleration =
+        is_short ? short_response(stiffness, 2 * rate, seconds)
+                 : std::max(1 - step.place_from_place, kLeastResponse) / stiffness;
   } else {
     // Two decays. The slow one is computed from the product of both, because their difference loses
     // all digits if the fast one is very fast.

@@ -8,7 +8,8 @@ namespace sunder::particles {
 ///   x(end) = place_from_place x + place_from_velocity v + place_from_acceleration a
 ///   v(end) = velocity_from_place x + velocity_from_velocity v + velocity_from_acceleration() a
 struct SpringStep {
-  double place_from_place = 1, place_from_velocity = 0, place_from_acceleration = 0;
+  double place_from_place = 1, place_from_velocity = 0;
+  double place_from_acceleration = 0;  ///< > 0 after a step that takes time.
   double velocity_from_place = 0, velocity_from_velocity = 1;
 
   /// The response to a step is the integral of the response to an impulse.

@@ -12,12 +12,13 @@ StridedFloats<float> floats_of(std::vector<Vector>& values) {
   return {values.empty() ? nullptr : values[0].data(), 0};
 }
 
-/// Grows by a little, because tears append few vertices to many.
+/// Grows by a little, because tears append few vertices to many. New values are 0: vertices that a
+/// detachment released before they were posed stay so, and Eigen's vectors begin with any bits.
 template <class Vector>
 void resize_within(std::size_t room, Index count, std::vector<Vector>& values) {
   if (values.capacity() < count)
     values.reserve(std::max(room, std::size_t{count} + (values.empty() ? 0 : count / 64 + 32)));
-  values.resize(count);
+  values.resize(count, Vector::Zero());
 }
 
 /// The attribute from a vertex on. @param width  floats per vertex of a packed one.

@@ -192,9 +192,11 @@ struct TornModel::State {
 [[nodiscard]] Status validate_options(const TearOptions& options);
 /// A whole stroke: first the number of blades, then the options, then blade after blade.
 [[nodiscard]] Status validate_tear(std::span<const Blade> stroke, const TearOptions& options);
-/// The options to record with an operation: none if they are the defaults of a new model.
-[[nodiscard]] inline std::optional<WeightOptions> recorded(const WeightOptions& options) {
-  return options == WeightOptions{} ? std::nullopt : std::optional(options);
+/// The options to record with an operation: none if they are the defaults of a new model, and of
+/// this one, so that the operation is the same in a new model and in one with the same defaults.
+[[nodiscard]] inline std::optional<WeightOptions> recorded(const WeightOptions& options,
+                                                           const WeightOptions& of_model) {
+  return options == WeightOptions{} && of_model == options ? std::nullopt : std::optional(options);
 }
 
 }  // namespace sunder

@@ -67,14 +67,15 @@ TEST(CCharacter, a_glb_is_read_and_stays_as_it_was) {
 }
 
 /// glTF text whose buffer is another file.
-std::string text_with_buffer(const std::vector<std::byte>& glb, std::string& buffer) {
+std::string text_with_buffer(const std::vector<std::byte>& glb, std::string& buffer,
+                             const std::string& uri = "mesh.bin") {
   std::uint32_t json_bytes = 0;
   std::memcpy(&json_bytes, glb.data() + 12, 4);
   const std::string all = text_of(glb);
   std::string json = all.substr(20, json_bytes);
   buffer = all.substr(20 + json_bytes + 8);
   const std::string place = "\"buffers\":[{";
-  json.insert(json.find(place) + place.size(), "\"uri\":\"mesh.bin\",");
+  json.insert(json.find(place) + place.size(), "\"uri\":\"" + uri + "\",");
   return json;
 }
 
@@ -115,6 +116,18 @@ TEST(CCharacter, other_files_come_from_the_program) {
   file.name = "mesh.bin";
   options.maximum_bytes = json.size() + 1;
   EXPECT_EQ(sunder_load_glb(json.data(), json.size(), &options, &handle), SUNDER_LIMIT_EXCEEDED);
+  EXPECT_EQ(file.open, 0);
+}
+
+TEST(CCharacter, no_file_is_asked_for_by_a_part_of_its_name) {
+  OneFile file{"mesh.bin", {}, 0};
+  const std::string json =
+      text_with_buffer(*save_glb(make_tube(6, 5, 3)), file.bytes, "mesh.bin\\u0000.png");
+  sunder_load_options options = sunder_default_load_options();
+  options.read_file = read_one;
+  options.file_context = &file;
+  sunder_character handle = 0;
+  EXPECT_EQ(sunder_load_glb(json.data(), json.size(), &options, &handle), SUNDER_PATH_NOT_ALLOWED);
   EXPECT_EQ(file.open, 0);
 }
 

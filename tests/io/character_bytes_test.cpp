@@ -74,6 +74,18 @@ TEST(CharacterBytes, characters_without_a_source_are_written_as_to_files) {
   EXPECT_EQ(save_glb(broken).error().code(), StatusCode::index_out_of_range);
 }
 
+TEST(CharacterBytes, names_that_are_not_utf8_are_mended_for_a_valid_file) {
+  Character character = make_tube(8, 6, 4);
+  character.name = "\xFF";
+  character.meshes[0].name = "a\xC0\x80";
+  character.skeleton.bones[1].name = "\xED\xA0\x80 b";
+  const auto bytes = save_glb(character);
+  ASSERT_TRUE(bytes) << bytes.error().text();
+  const auto again = load_glb(*bytes);
+  ASSERT_TRUE(again) << again.error().text();
+  EXPECT_NE(again->character->skeleton.bones[1].name.find("\xEF\xBF\xBD"), std::string::npos);
+}
+
 TEST(CharacterBytes, nothing_is_read_without_a_resolver) {
   GltfBuilder builder = skinned_strip();
   const std::vector<std::byte> glb = builder.glb();

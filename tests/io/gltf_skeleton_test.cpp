@@ -1,5 +1,8 @@
 // load_character() on glTF: nodes to bones, and clips.
 
+#include <set>
+#include <string>
+
 #include <gtest/gtest.h>
 
 #include "support/models/gltf_builder.h"
@@ -31,6 +34,21 @@ TEST(LoadGltfSkeleton, every_node_of_the_scene_is_a_bone_after_its_parent) {
   EXPECT_EQ(bones[2].name, "tip");
   EXPECT_EQ(bones[2].parent, 1u);
   EXPECT_EQ(bones[2].rest.translation, Vec3f(0, 1, 0));
+}
+
+TEST(LoadGltfSkeleton, names_are_unique_and_not_empty_for_C_too) {
+  GltfBuilder builder = skinned_strip();
+  for (const char last : {'1', '2', '\0'}) {
+    const std::string name = last == '\0' ? std::string(1, '\0') : std::string("a\0", 2) + last;
+    builder.json["nodes"][1]["children"].push_back(builder.json["nodes"].size());
+    builder.json["nodes"].push_back({{"name", name}});
+  }
+  const auto loaded = builder.load();
+  ASSERT_TRUE(loaded.has_value()) << loaded.error().text();
+  std::set<std::string> names;
+  for (const Bone& bone : loaded->character->skeleton.bones)
+    EXPECT_TRUE(names.insert(bone.name.c_str()).second && *bone.name.c_str() != '\0') << bone.name;
+  EXPECT_EQ(names.count(std::string("a\xEF\xBF\xBD") + '2'), 1u);
 }
 
 TEST(LoadGltfSkeleton, names_become_unique_and_originals_win) {

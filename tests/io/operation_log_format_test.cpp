@@ -383,6 +383,17 @@ TEST(FormatOperations, OfWeightsOnlyWhatHasAMeaningIsWritten) {
             std::string::npos);
 }
 
+TEST(FormatOperations, AnyNumberOfInfluencesThatIsAppliedIsReadBack) {
+  CutOperation cut;
+  for (const std::uint32_t most : {0u, 1u, kNone - 1, kNone}) {
+    cut.cut.weights = WeightOptions{WeightPolicy::barycentric, most};
+    const std::vector<Operation> operations = {cut};
+    const auto again = parse_operations(*format_operations(operations));
+    ASSERT_TRUE(again) << again.error().text();
+    EXPECT_EQ(bits(*again), bits(operations));
+  }
+}
+
 TEST(FormatOperations, AnEmptyLogIsOne) {
   const auto operations = parse_operations(*format_operations({}));
   ASSERT_TRUE(operations) << operations.error().text();

@@ -103,6 +103,24 @@ TEST(collider, is_checked) {
             StatusCode::invalid_argument);
 }
 
+TEST(collider, places_and_sizes_that_no_state_may_have_are_refused) {
+  // A radius of 3e38 m is finite, and pushes tissue to where single precision has no number.
+  const auto fault = [](const Collider& collider) { return validate_collider(collider).code(); };
+  for (const double far : {1e10, 1e38, std::numeric_limits<double>::max()}) {
+    EXPECT_EQ(fault({Collider::Sphere{far}, Vec3d::Zero(), Quatd::Identity(), 0}),
+              StatusCode::invalid_argument);
+    EXPECT_EQ(fault({Collider::Capsule{1, far}, Vec3d::Zero(), Quatd::Identity(), 0}),
+              StatusCode::invalid_argument);
+    EXPECT_EQ(fault({Collider::Box{{1, 1, far}}, Vec3d::Zero(), Quatd::Identity(), 0}),
+              StatusCode::invalid_argument);
+    EXPECT_EQ(fault({Collider::HalfSpace{}, {0, -far, 0}, Quatd::Identity(), 0}),
+              StatusCode::invalid_argument);
+  }
+  EXPECT_EQ(fault({Collider::HalfSpace{}, Vec3d::Zero(), Quatd::Identity(), 1e13}),
+            StatusCode::invalid_argument);
+  EXPECT_EQ(fault({Collider::Sphere{1e9}, {1e9, 0, 0}, Quatd::Identity(), 1e12}), StatusCode::ok);
+}
+
 /// The position of a point, skinned by the reference and displaced by the body's results.
 Vec3d place_of(const SoftScene& scene, std::uint32_t vertex) {
   const Mesh& mesh = scene.model->character().meshes[0];

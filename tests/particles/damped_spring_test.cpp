@@ -76,6 +76,19 @@ TEST(damped_spring, does_not_depend_on_the_step) {
     }
 }
 
+TEST(damped_spring, whole_periods_without_damping_can_be_divided_by) {
+  constexpr double kTwoPi = 6.283185307179586;
+  for (const double frequency : {1.0, 3.2, 60.0, 1.6e5})
+    for (const double ratio : {0.0, 1e-300, 1e-18})
+      for (const double periods : {1.0, 2.0, 16.0, 1000.0}) {
+        const SpringStep step =
+            step_spring(std::pow(kTwoPi * frequency, 2), ratio, periods / frequency);
+        EXPECT_GT(step.place_from_acceleration, 0) << frequency << ' ' << ratio << ' ' << periods;
+        EXPECT_TRUE(
+            std::isfinite(step.velocity_from_acceleration() / step.place_from_acceleration));
+      }
+}
+
 TEST(damped_spring, never_gains_energy) {
   test::Random random(1);
   for (int i = 0; i < 20000; ++i) {

@@ -384,7 +384,8 @@ TEST(Decomposition, refuses_ranges_that_are_none) {
 
 TEST(Decomposition, refuses_extreme_ranges_or_takes_them) {
   const TornModel model = make_model(test::make_sheet(4));
-  for (const double range : {1e-300, 1e-30, 1e-12, 1e12, 1e30, 1e300})
+  for (const double range :
+       {1e-300, 1.2e-38, 1e-37, 1e-35, 1e-33, 1e-30, 1e-12, 1e12, 1e30, 1e36, 1e38, 3.4e38, 1e300})
     for (const bool is_fraction : {true, false}) {
       SCOPED_TRACE(range);
       const auto set =

@@ -172,6 +172,20 @@ TEST(soft_body, is_stable_at_any_step_and_stiffness) {
   }
 }
 
+TEST(soft_body, undamped_tissue_survives_steps_of_whole_periods) {
+  for (const double frequency : {1.0, 3.2, 60.0})
+    for (const double periods : {1.0, 3.0, 16.0, 600.0}) {
+      SoftMaterial material;
+      material.return_frequency = frequency;
+      material.damping_ratio = 0;
+      SoftScene scene(test::make_tube(8, 6, 2), material, 0.3);
+      ASSERT_TRUE(scene.body->add_impulse(0, {1e-3, 0, 0}));
+      ASSERT_TRUE(scene.body->hold_point(5, {0.3, 0, 0}));
+      for (int i = 0; i < 4; ++i) scene.step(periods / frequency);
+      EXPECT_LT(scene.farthest(), 10) << frequency << " Hz, " << periods << " periods";
+    }
+}
+
 TEST(soft_body, a_hold_brings_a_point_to_its_target) {
   for (const double seconds : {1e-3, 1.0 / 60, 0.5}) {
     SoftScene scene = make_tube_scene();

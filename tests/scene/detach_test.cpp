@@ -9,6 +9,10 @@
 #include <set>
 #include <vector>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include <gtest/gtest.h>
 
 #include "support/machine/random.h"
@@ -91,6 +95,27 @@ TEST(DetachFromInstance, released_vertices_are_not_skinned) {
   ASSERT_TRUE(fresh.draw());
   const auto now = scene.instance.mesh(0).positions, expected = fresh.mesh(0).positions;
   EXPECT_TRUE(std::equal(now.begin(), now.end(), expected.begin(), expected.end()));
+}
+
+TEST(DetachFromInstance, vertices_released_before_they_were_posed_are_zero) {
+#ifdef __GLIBC__
+  mallopt(M_PERTURB, 1);  // new memory is full of 0xFE
+#endif
+  DetachCase scene(false);
+  ASSERT_TRUE(scene.instance.advance(scene.pose, 0.01));
+  ASSERT_TRUE(scene.instance.draw());
+  const std::size_t before = scene.instance.mesh(0).positions.size();
+  // Both in one frame: the vertices along the cut that only the piece has are never posed.
+  ASSERT_TRUE(scene.instance.detach(scene.pose, scene.cut_off()));
+  ASSERT_TRUE(scene.instance.advance(scene.pose, 0.01));
+  ASSERT_TRUE(scene.instance.draw());
+  const auto positions = scene.instance.mesh(0).positions;
+  ASSERT_GT(positions.size(), before);
+  for (std::size_t v = 0; v < positions.size(); ++v)
+    EXPECT_LT(positions[v].cwiseAbs().maxCoeff(), 100.0f) << "vertex " << v;
+#ifdef __GLIBC__
+  mallopt(M_PERTURB, 0);
+#endif
 }
 
 TEST(DetachFromInstance, particles_of_the_piece_vanish) {

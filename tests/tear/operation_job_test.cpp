@@ -59,6 +59,52 @@ struct ModelPair {
   TornModel called, swapped;
 };
 
+/// Operations with the weights of a new model in models that have others, before or after them.
+TEST(OperationJob, a_history_keeps_the_weights_that_it_was_made_with) {
+  for (const WeightPolicy policy : {WeightPolicy::pose_exact, WeightPolicy::refit})
+    for (const bool are_set_before : {true, false}) {
+      const Character character = test::make_tube(24, 16, 3);
+      TornModel called = make_model(character), swapped = make_model(character);
+      PlaneCut first = job_cut_at({0, 0.9, 0}, {0.1, 1, 0});
+      first.weights = WeightOptions{};
+      CutOperation next;
+      next.pose = RestPose{};
+      next.cut = job_cut_at({0, 0.4, 0}, {0, 1, 0.1});
+      for (TornModel* const model : {&called, &swapped}) {
+        if (are_set_before) {
+          ASSERT_TRUE(model->set_weights({policy, 1}));
+        }
+        ASSERT_TRUE(model->cut(*rest_pose(character), first));
+        ASSERT_TRUE(model->set_weights({policy, 1}));
+      }
+      ASSERT_TRUE(apply_operation(called, next));
+      const auto job = OperationJob::create(swapped, next);
+      ASSERT_TRUE(job) << job.error().text();
+      job->run();
+      ASSERT_TRUE(job->swap_in(swapped));
+      EXPECT_EQ(difference(state_of(swapped), state_of(called)), "");
+      // Both go on in the same way, from the births of the new vertices.
+      Random random(1);
+      for (int i = 0; i < 4; ++i) {
+        const Operation more = test::random_operation(called, random);
+        const auto expected = apply_operation(called, more), found = apply_operation(swapped, more);
+        EXPECT_EQ(found.error().code(), expected.error().code());
+        ASSERT_EQ(difference(state_of(swapped), state_of(called)), "") << i;
+      }
+      if (!are_set_before) continue;
+      // Its history makes it again in a model that has the same weights, and in a new one.
+      for (const bool has_weights : {true, false}) {
+        TornModel again = make_model(character);
+        if (has_weights) {
+          ASSERT_TRUE(again.set_weights({policy, 1}));
+        }
+        for (const Operation& operation : *called.history())
+          ASSERT_TRUE(apply_operation(again, operation));
+        EXPECT_EQ(again.digest(), called.digest());
+      }
+    }
+}
+
 TEST(OperationJob, gives_the_bits_and_the_record_of_the_call) {
   for (int seed = 1; seed <= test::stressed(40, 400); ++seed) {
     SCOPED_TRACE(seed);

@@ -1,5 +1,6 @@
 """Strokes over frames, tissue, pieces, snapshots, and what misuse does."""
 import gc
+import os
 
 import numpy as np
 import pytest
@@ -163,6 +164,22 @@ def test_damaged_bytes_are_refused(soft):
     with pytest.raises(sunder_tear.SunderError) as caught:
         instance.apply_log('{"sunder_operations": 1, "operations": [{"op": "tearr"}]}')
     assert '/operations/0' in caught.value.text
+
+
+def test_what_is_no_regular_file_is_refused(tmp_path):
+    """A link among models could lead to a device without an end, or to a pipe that nobody writes."""
+    (tmp_path / 'device.glb').symlink_to('/dev/zero')
+    os.mkfifo(tmp_path / 'pipe.glb')
+    with open(tmp_path / 'large.glb', 'wb') as file:
+        file.truncate(3 << 30)
+    (tmp_path / 'folder.glb').mkdir()
+    for name, error in (('device', 'file_unreadable'), ('pipe', 'file_unreadable'), ('folder', 'file_unreadable'),
+                        ('large', 'limit_exceeded')):
+        with pytest.raises(sunder_tear.SunderError) as raised:
+            sunder_tear.Character.load(tmp_path / f'{name}.glb')
+        assert raised.value.name == error
+    with pytest.raises(FileNotFoundError):
+        sunder_tear.Character.load(tmp_path / 'none.glb')
 
 
 def test_borrowed_arrays_hold_the_scene(tube):

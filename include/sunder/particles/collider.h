@@ -43,7 +43,7 @@ struct SurfaceDistance {
 /// is unchecked. Thread-safe.
 [[nodiscard]] SUNDER_API SurfaceDistance distance_to(const Collider& collider, const Vec3d& place);
 
-///
+/// Whether a collider is one: places and sizes are at most 10^9 m, the friction at most 10^12.
 /// @return non_finite_value or invalid_argument; the text names the fault. Thread-safe.
 [[nodiscard]] SUNDER_API Status validate_collider(const Collider& collider);
 

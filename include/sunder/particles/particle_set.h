@@ -20,7 +20,8 @@ struct StructureOf;
 
 /// How a surface is divided into particles.
 struct DecompositionOptions {
-  double range = 0.1;  ///< Radius of a particle, from its seed along the surface; > 0.
+  /// Radius of a particle, from its seed along the surface; in metres from 10^-33 to 10^37.
+  double range = 0.1;
   /// Whether `range` is a fraction of the diagonal of the box around the surface; otherwise metres.
   bool is_fraction = true;
   std::uint64_t seed = 0;  ///< Seed of the scattered order in which points become seeds.

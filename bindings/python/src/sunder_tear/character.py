@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import ctypes
 import os
+import stat
 from dataclasses import dataclass, field
 from typing import Optional, Union
 
@@ -10,6 +11,7 @@ import numpy as np
 
 from .abi import abi
 from .arrays import copy, matrices
+from .errors import SunderError
 
 _INTERPOLATIONS = ('linear', 'step', 'cubic')
 _TARGETS = ('translation', 'rotation', 'scale', 'morph_weights')
@@ -93,6 +95,20 @@ class Note:
     count: int
 
 
+def _read_file(path, most_bytes: int) -> bytes:
+    """The bytes of a regular file. A name among models may lead to a device or a pipe, which would not end."""
+    # Without O_NONBLOCK, to open a pipe waits for a writer.
+    descriptor = os.open(path, os.O_RDONLY | getattr(os, 'O_NONBLOCK', 0) | getattr(os, 'O_BINARY', 0))
+    status = os.fstat(descriptor)
+    if not stat.S_ISREG(status.st_mode):
+        os.close(descriptor)
+        raise SunderError(abi.constant('FILE_UNREADABLE'), 'file_unreadable', f'{path}: not a regular file')
+    with open(descriptor, 'rb') as file:
+        if status.st_size > most_bytes:
+            raise SunderError(abi.constant('LIMIT_EXCEEDED'), 'limit_exceeded', f'{path}: {status.st_size} bytes exceed {most_bytes}')
+        return file.read(status.st_size)
+
+
 class Character:
     """A rigged model. Immutable; made by load()."""
 
@@ -111,11 +127,11 @@ class Character:
 
         strict: raises SunderError for what would otherwise be repaired or dropped (`notes`).
         """
-        if not isinstance(model, (bytes, bytearray, memoryview)):
-            with open(model, 'rb') as file:
-                model = file.read()
-        model = bytes(model)
         options = abi.new('load_options', is_strict=int(strict))
+        if isinstance(model, (bytes, bytearray, memoryview)):
+            model = bytes(model)
+        else:
+            model = _read_file(model, options.maximum_bytes)
         return Character(abi.output('load_glb', model, len(model), ctypes.byref(options)))
 
     @property
