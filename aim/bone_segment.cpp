@@ -10,8 +10,6 @@
 namespace sunder::aim {
 namespace {
 
-/// Joints nearer than this share of the model's size are one place.
-constexpr double kSameJointSizes = 1e-5;
 /// Of several children, a bone leads to one within 60 degrees of its own direction, or to none.
 constexpr double kLeastCosineOfSeveral = 0.5;
 /// A single child behind the joint is not what the bone leads to.

@@ -1,9 +1,13 @@
 #include "aim/bone_tree.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <map>
 #include <unordered_map>
 #include <utility>
+
+#include "aim/joined_sets.h"
 
 namespace sunder::aim {
 namespace {
@@ -44,20 +48,99 @@ class SharedSurface {
   std::unordered_map<std::uint64_t, double> shared_;  // lookups only, never iterated
 };
 
-/// The bone that most of the model hangs on, of those that move something and hang on none that
-/// does.
-Index main_root(const std::vector<Bone>& bones, const std::vector<double>& weights) {
-  std::vector<double> below = weights;
-  for (std::size_t i = bones.size(); i-- > 0;)  // parents come before children
-    if (bones[i].parent != kNone) below[bones[i].parent] += below[i];
-  Index root = kNone;
-  for (Index i = 0; i < bones.size(); ++i) {
-    if (!(weights[i] > 0)) continue;
-    Index above = bones[i].parent;
-    while (above != kNone && !(weights[above] > 0)) above = bones[above].parent;
-    if (above == kNone && (root == kNone || below[i] > below[root])) root = i;
+/// The bones that move something and hang on none that does, with all that hangs on each: the trees
+/// of the skeleton.
+class Trees {
+ public:
+  Trees(const std::vector<Bone>& bones, const std::vector<double>& weights)
+      : root_of_(bones.size(), kNone), below_(weights) {
+    for (Index i = 0; i < bones.size(); ++i) {  // parents come before children
+      const Index above = bones[i].parent == kNone ? kNone : root_of_[bones[i].parent];
+      root_of_[i] = above != kNone ? above : weights[i] > 0 ? i : kNone;
+      if (root_of_[i] == i)
+        roots_.push_back(i);
+      else if (root_of_[i] != kNone)
+        below_[root_of_[i]] += weights[i];
+    }
   }
-  return root;
+
+  [[nodiscard]] const std::vector<Index>& roots() const { return roots_; }
+  [[nodiscard]] Index root_of(Index bone) const { return root_of_[bone]; }
+  /// The weight of a root and of all that hangs on it.
+  [[nodiscard]] double weight(Index root) const { return below_[root]; }
+  [[nodiscard]] Index heaviest() const {
+    Index heaviest = kNone;
+    for (const Index root : roots_)
+      if (heaviest == kNone || weight(root) > weight(heaviest)) heaviest = root;
+    return heaviest;
+  }
+  [[nodiscard]] double whole() const {
+    double sum = 0;
+    for (const Index root : roots_) sum += weight(root);
+    return sum;
+  }
+
+ private:
+  std::vector<Index> root_of_;  ///< Per bone; kNone: nothing above it and not it itself moves.
+  std::vector<double> below_;
+  std::vector<Index> roots_;
+};
+
+/// The roots of the pairs of trees that adjoin, unless they share much less surface than the pair
+/// that shares most.
+std::vector<std::array<Index, 2>> adjoining_trees(const Trees& trees, const SharedSurface& shared,
+                                                  Index bone_count) {
+  constexpr double kLeastOfStrongestBond = 0.05;
+  std::map<std::array<Index, 2>, double> by_pair;
+  double strongest = 0;
+  for (Index a = 0; a < bone_count; ++a)
+    for (Index b = 0; b < a; ++b) {
+      const Index i = trees.root_of(a), j = trees.root_of(b);
+      if (i == kNone || j == kNone || i == j) continue;
+      double& bond = by_pair[{std::min(i, j), std::max(i, j)}];
+      bond += shared.of(a, b);
+      strongest = std::max(strongest, bond);
+    }
+  std::vector<std::array<Index, 2>> pairs;
+  for (const auto& [pair, bond] : by_pair)
+    if (bond > 0 && bond >= kLeastOfStrongestBond * strongest) pairs.push_back(pair);
+  return pairs;
+}
+
+/// Of the trees of a flat list of bones, the one in the middle: without it, the heaviest part of
+/// the others that adjoin one another is lightest. Of several, the heaviest.
+Index middle_tree(const Trees& trees, const std::vector<std::array<Index, 2>>& pairs,
+                  Index bone_count) {
+  Index middle = kNone;
+  double least = 0;
+  for (const Index root : trees.roots()) {
+    JoinedSets joined(bone_count);
+    for (const auto& [a, b] : pairs)
+      if (a != root && b != root) joined.join(a, b);
+    std::vector<double> parts(bone_count, 0.0);
+    for (const Index other : trees.roots())
+      if (other != root) parts[joined.set_of(other)] += trees.weight(other);
+    const double heaviest = *std::ranges::max_element(parts);
+    const bool is_better = middle == kNone || heaviest < least ||
+                           (heaviest == least && trees.weight(root) > trees.weight(middle));
+    if (!is_better) continue;
+    middle = root;
+    least = heaviest;
+  }
+  return middle;
+}
+
+/// The bone that most of the model hangs on, of those that move something and hang on none that
+/// does. If on none hangs half of it, because the bones are a flat list, the one in the middle: the
+/// body and not the head, whichever has more vertices.
+Index main_root(const std::vector<Bone>& bones, const std::vector<double>& weights,
+                const SharedSurface& shared) {
+  constexpr double kMostOfModel = 0.5;
+  const Trees trees(bones, weights);
+  const Index heaviest = trees.heaviest();
+  if (heaviest == kNone || trees.weight(heaviest) >= kMostOfModel * trees.whole()) return heaviest;
+  const auto count = static_cast<Index>(bones.size());
+  return middle_tree(trees, adjoining_trees(trees, shared, count), count);
 }
 
 /// A bone that keeps its place in the skeleton goes before the one with the strongest bond if its
@@ -68,10 +151,11 @@ constexpr double kLeastOfStrongest = 0.4;
 /// those with the strongest bond first.
 class Adoption {
  public:
-  Adoption(const std::vector<Bone>& bones, const std::vector<double>& weights,
+  Adoption(const PosedSurface& surface, const std::vector<double>& weights,
            const SharedSurface& shared, std::vector<Index>& parents)
-      : shared_(shared), parents_(parents) {
-    const Index root = main_root(bones, weights);
+      : surface_(surface), shared_(shared), parents_(parents) {
+    const std::vector<Bone>& bones = surface.character().skeleton.bones;
+    const Index root = main_root(bones, weights, shared);
     for (Index bone = 0; bone < bones.size(); ++bone)
       if (weights[bone] > 0 && bone != root && !adjoins_above(bone)) waiting_.push_back(bone);
     waited_.assign(bones.size(), false);
@@ -92,7 +176,8 @@ class Adoption {
           parent = other;
         }
       if (parent == kNone) return;
-      parents_[waiting_[place]] = with_own_parents(waiting_[place], parent, strongest);
+      const Index bone = waiting_[place];
+      parents_[bone] = not_at_joint_of(bone, with_own_parents(bone, parent, strongest));
       waiting_.erase(waiting_.begin() + static_cast<std::ptrdiff_t>(place));
     }
   }
@@ -116,6 +201,15 @@ class Adoption {
       }
     return parent;
   }
+  /// The bone, or the nearest above it that begins elsewhere: limbs that begin at one joint, such
+  /// as neck and back of a fish, do not hang on one another.
+  [[nodiscard]] Index not_at_joint_of(Index bone, Index parent) const {
+    const double least = kSameJointSizes * surface_.size();
+    while (parents_[parent] != kNone &&
+           norm(surface_.joint(bone) - surface_.joint(parent)) <= least)
+      parent = parents_[parent];
+    return parent;
+  }
   /// Whether neither a bone nor one above it waits for a parent.
   [[nodiscard]] bool is_settled(Index bone) const {
     for (; bone != kNone; bone = parents_[bone])
@@ -123,6 +217,7 @@ class Adoption {
     return true;
   }
 
+  const PosedSurface& surface_;
   const SharedSurface& shared_;
   std::vector<Index>& parents_;
   std::vector<Index> waiting_;
@@ -138,7 +233,7 @@ BoneTree::BoneTree(const PosedSurface& surface) {
     for_each_influence(surface, point,
                        [&](Index bone, double weight) { weights_[bone] += weight; });
   for (const Bone& bone : bones) parents_.push_back(bone.parent);
-  Adoption(bones, weights_, SharedSurface(surface), parents_).run();
+  Adoption(surface, weights_, SharedSurface(surface), parents_).run();
   for (Index bone = 0; bone < bones.size(); ++bone)
     is_adopted_.push_back(parents_[bone] != bones[bone].parent);
   children_.resize(bones.size());

@@ -6,6 +6,9 @@
 
 namespace sunder::aim {
 
+/// Joints nearer than this share of the model's size are one place.
+constexpr double kSameJointSizes = 1e-5;
+
 /// The bones as a tree that follows the surface. It is that of the skeleton, except that a bone
 /// whose surface does not adjoin that of any bone above it hangs on the bone that it shares most
 /// surface with: the foot of a rig for inverse kinematics, which the skeleton hangs on the root, on

@@ -40,13 +40,15 @@ class LimbBones {
   LimbBones(const PosedSurface& surface, const BoneTree& tree, Index bone);
 
   [[nodiscard]] Index bone() const { return bone_; }
+  /// The nearest bone above that moves something; kNone if there is none.
+  [[nodiscard]] Index parent() const { return parent_; }
   [[nodiscard]] LimbShares shares(Index point) const;
   /// Mean of the corners.
   [[nodiscard]] LimbShares shares_of_face(Index face) const;
 
  private:
   const PosedSurface& surface_;
-  Index bone_;
+  Index bone_, parent_;
   std::vector<BoneRole> roles_;  ///< Per bone of the skeleton.
 };
 

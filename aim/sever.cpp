@@ -86,9 +86,17 @@ Result<AimedSever> aim_sever(const PosedSurface& surface, const SeverOperation& 
   const Result<Vec3d> normal = normal_of(*limb, sever);
   if (!normal) return normal.error();
   const SurfaceParts parts(*limb);
-  const auto plane_at = [&](const Limb& at) { return LimbPlane{*normal, dot(*normal, at.place)}; };
-  const LimbPlane plane = plane_at(*limb);
+  LimbPlane plane = {*normal, dot(*normal, limb->place)};
   Severing severing = severing_sections(*limb, parts, plane, judge);
+  if (severing.sections.empty() && limb->segment.next == kNone) {
+    // The last bone of a chain leads to no joint: a head whose joint lies in its middle may point
+    // to the neck. Then the limb is what lies before the plane.
+    const LimbPlane back = {-plane.normal, -plane.offset};
+    if (Severing other = severing_sections(*limb, parts, back, judge); !other.sections.empty()) {
+      severing = std::move(other);
+      plane = back;
+    }
+  }
   if (was_cut(*limb, severing.own, plane))
     return Status::failure(StatusCode::invalid_argument, limb->bones.bone(),
                            "%s: the surface lies in the plane of the cut, as where the limb was "

@@ -14,7 +14,8 @@ namespace {
 /// of itself: a face below much hair and a hat.
 constexpr double kLeastShared = 0.02;
 /// A large part of the limb holds at least this share of it. Where no part joins it to others,
-/// those are its body.
+/// those are its body. A smaller part that joins it is a joint between them: the ball in the hip of
+/// a doll.
 constexpr double kLeastOfLimb = 0.1;
 /// The limb alone moves a part if it moves at least so much of it.
 constexpr double kLeastOfProp = 0.9;
@@ -83,10 +84,10 @@ void SurfaceParts::measure(const Limb& limb) {
 void SurfaceParts::choose_body() {
   double whole = 0, most = 0;
   Part* best = nullptr;
+  for (const Part& part : parts_) whole += part.moved;
   for (Part& part : parts_) {
     const double shared = std::min(part.moved, part.size - part.moved);
-    whole += part.moved;
-    if (!(shared > most)) continue;
+    if (!(shared > most) || part.size < kLeastOfLimb * whole) continue;
     most = shared;
     best = &part;
   }

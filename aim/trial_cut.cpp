@@ -21,6 +21,9 @@ constexpr double kLeastMoved = 0.5, kMostOfOthers = 0.25;
 /// Where the body holds less than this share of what the limb moves beyond the plane, the other
 /// parts count too: the shoe on a leg whose foot nobody has modelled.
 constexpr double kLeastBody = 0.05;
+/// A limb takes along so much of what its parent moves only if that is less than this share of what
+/// the limb moves itself.
+constexpr double kMostOfParent = 0.75, kLeastOfParent = 0.1;
 
 int percent(double part, double whole) { return static_cast<int>(std::lround(100 * part / whole)); }
 
@@ -34,6 +37,23 @@ double share_beyond(const std::array<double, 3>& heights) {
   const double h = heights[lone], a = heights[(lone + 1) % 3], b = heights[(lone + 2) % 3];
   const double tip = h / (h - a) * (h / (h - b));
   return count == 1 ? tip : 1.0 - tip;
+}
+
+/// A place inside the part of a triangle where a linear function of the corners is not negative.
+Vec3d inside_beyond(const std::array<Vec3d, 3>& corners, const std::array<double, 3>& heights) {
+  Vec3d sum = Vec3d::Zero();
+  int count = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;
+    if (heights[i] >= 0) {
+      sum += corners[i];
+      ++count;
+    }
+    if ((heights[i] >= 0) == (heights[j] >= 0)) continue;
+    sum += corners[i] + heights[i] / (heights[i] - heights[j]) * (corners[j] - corners[i]);
+    ++count;
+  }
+  return sum / count;
 }
 
 }  // namespace
@@ -95,13 +115,15 @@ class TrialCut::Halves {
 
 TrialCut::TrialCut(const Limb& limb, const SurfaceParts& parts, const LimbPlane& plane,
                    std::span<const Section> sections)
-    : limb_(limb), heights_(limb.surface.surface().point_count()) {
-  for (Index point = 0; point < heights_.size(); ++point)
-    heights_[point] = dot(plane.normal, limb.surface.position(point)) - plane.offset;
-  const Halves halves(limb.surface, heights_, sections);
+    : limb_(limb), parts_(parts), beyond_of_face_(limb.surface.face_count(), 0.0) {
+  std::vector<double> heights(limb.surface.surface().point_count());
+  for (Index point = 0; point < heights.size(); ++point)
+    heights[point] = dot(plane.normal, limb.surface.position(point)) - plane.offset;
+  const Halves halves(limb.surface, heights, sections);
   const std::vector<Index> piece_of = halves.pieces();
   for (const Index piece : piece_of)
     if (piece >= pieces_.size()) pieces_.resize(piece + 1);
+  piece_of_face_.assign(piece_of.begin(), piece_of.begin() + limb.surface.face_count());
   for (Index face = 0; face < limb.surface.face_count(); ++face)
     if (limb.surface.is_live(face)) add_face(face, halves, parts, piece_of);
 }
@@ -118,20 +140,20 @@ void TrialCut::add_face(Index face, const Halves& halves, const SurfaceParts& pa
     if (parts.is_of_body(face)) piece.body_moved += moved;
   };
   Piece& far = pieces_[piece_of[face]];
-  add(far, halves.is_crossed(face) ? beyond : 1.0);
+  beyond_of_face_[face] = halves.is_crossed(face) ? beyond : 1.0;
+  add(far, beyond_of_face_[face]);
   far.going += parts.size(face) * (shares.below() + beyond * shares.own());
   if (halves.is_crossed(face)) {
     Piece& near = pieces_[piece_of[halves.near_half(face)]];
     add(near, 1.0 - beyond);
     far.is_far = true;
     near.is_near = true;
+    if (const double size = beyond * parts.size(face); size > far.inside_size) {
+      far.inside_size = size;
+      far.inside = inside_beyond(limb_.surface.corners(face), halves.heights(face));
+    }
   } else if (far.face == kNone) {
     far.face = face;
-  }
-  for (Index corner = 3 * face; corner < 3 * face + 3; ++corner) {
-    const Index point = limb_.surface.point(corner);
-    if (far.point == kNone || std::abs(heights_[point]) > std::abs(heights_[far.point]))
-      far.point = point;
   }
   beyond_of_all_ += beyond * parts.moved_size(face);
   if (!parts.is_of_body(face)) return;
@@ -162,6 +184,7 @@ std::string TrialCut::fault(const SeverJudge& judge) const {
   if (off.moved < kLeastMoved * off.size || off.others > kMostOfOthers * off.size)
     return "other bones move " + std::to_string(percent(off.size - off.moved, off.size)) +
            " % of what would come off there";
+  if (const std::string text = taken_along(); !text.empty()) return text;
   const double of = judge.is_whole ? whole_ : is_of_body ? beyond_ : beyond_of_all_;
   const double has = judge.is_whole || is_of_body ? held : held_of_all;
   if (has >= kMost * of) return {};
@@ -169,8 +192,24 @@ std::string TrialCut::fault(const SeverJudge& judge) const {
          " % of what the bones move on the body";
 }
 
+std::string TrialCut::taken_along() const {
+  const Index parent = limb_.bones.parent();
+  if (parent == kNone) return {};
+  double moved = 0, whole = 0, taken = 0;
+  for (Index face = 0; face < piece_of_face_.size(); ++face) {
+    if (!limb_.surface.is_live(face)) continue;
+    const double of_parent = parts_.size(face) * limb_.bones.shares_of_face(face).parent();
+    whole += of_parent;
+    moved += parts_.moved_size(face);
+    if (is_severed(pieces_[piece_of_face_[face]])) taken += beyond_of_face_[face] * of_parent;
+  }
+  if (whole < kLeastOfParent * moved || taken < kMostOfParent * whole) return {};
+  return "a cut there takes along " + std::to_string(percent(taken, whole)) + " % of what '" +
+         limb_.surface.character().skeleton.bones[parent].name.substr(0, 60) + "' moves";
+}
+
 PiecePlace TrialCut::place_on(const Piece& piece) const {
-  if (piece.face == kNone) return PieceNear{limb_.surface.position(piece.point)};
+  if (piece.face == kNone) return PieceNear{piece.inside};
   const tear::TriangleRef ref = limb_.surface.surface().triangle(piece.face);
   return PieceOfTriangle{ref.mesh, ref.triangle};
 }

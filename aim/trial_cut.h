@@ -40,8 +40,11 @@ class TrialCut {
   struct Piece {
     /// Whether it has a lip beyond the plane, and before it.
     bool is_far = false, is_near = false;
-    Index face = kNone;          ///< That the plane does not cross; kNone: there is none.
-    Index point = kNone;         ///< The farthest from the plane.
+    Index face = kNone;  ///< That the plane does not cross; kNone: there is none.
+    /// A place inside the largest part of a crossed face, and how large that is. A corner of a
+    /// piece may lie on other pieces too.
+    Vec3d inside = Vec3d::Zero();
+    double inside_size = -1;
     double size = 0, moved = 0;  ///< SurfaceParts::size(), and what the limb moves of it.
     double going = 0;   ///< What the bones below move of it, and the bone itself beyond the plane.
     double others = 0;  ///< What bones move of it that are neither of the limb nor its parent.
@@ -53,10 +56,14 @@ class TrialCut {
   [[nodiscard]] bool is_severed(const Piece& piece) const { return piece.is_far && !piece.is_near; }
   [[nodiscard]] bool is_prop(const Piece& piece) const;
   [[nodiscard]] PiecePlace place_on(const Piece& piece) const;
+  /// That most of what the parent moves would come off too; empty if it stays.
+  [[nodiscard]] std::string taken_along() const;
 
   const Limb& limb_;
-  std::vector<double> heights_;  ///< Per point, over the plane.
+  const SurfaceParts& parts_;
   std::vector<Piece> pieces_;
+  std::vector<Index> piece_of_face_;    ///< Of a crossed face, of its half beyond the plane.
+  std::vector<double> beyond_of_face_;  ///< The share of a face that is of that piece.
   double beyond_ = 0, whole_ = 0;  ///< What the limb moves on the body: beyond the plane, and all.
   double beyond_of_all_ = 0;       ///< What it moves beyond the plane on any part.
 };

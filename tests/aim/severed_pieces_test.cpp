@@ -7,6 +7,8 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -179,6 +181,128 @@ TEST(SeveredPieces, a_head_comes_off_below_a_hat_that_is_larger) {
   EXPECT_EQ(sever_and_detach(model, std::get<SeverOperation>(*sever)), 2u);
   EXPECT_LT(weight_left(model.character(), 1, kHand), 0.3 * before);
   EXPECT_EQ(weight_left(model.character(), 2, kHand), 0.0);
+}
+
+/// The area that a bone moves, by its weights, of what is left of a mesh at rest.
+double area_left(const TornModel& model, std::uint32_t m, std::uint32_t bone) {
+  const Character& character = model.character();
+  const Mesh& mesh = character.meshes[m];
+  double sum = 0;
+  for (const Triangle& triangle : mesh.triangles) {
+    if (is_retired(triangle)) continue;
+    const Vec3f a = mesh.positions[triangle[0]];
+    const Vec3f across = (mesh.positions[triangle[1]] - a).cross(mesh.positions[triangle[2]] - a);
+    for (const std::uint32_t vertex : triangle)
+      sum += across.norm() / 6 * weight_of(character, mesh, vertex, bone);
+  }
+  return sum;
+}
+
+/// Weights by height: of each slot from its height upwards, without blends.
+void weigh_by_height(Mesh& mesh, const std::vector<std::pair<float, std::uint32_t>>& slots) {
+  mesh.weights = SkinWeights();
+  for (const Vec3f& position : mesh.positions) {
+    Influence whole{slots.front().second, 1.0f};
+    for (const auto& [height, slot] : slots)
+      if (position.y() >= height) whole.slot = slot;
+    mesh.weights.append({&whole, 1});
+  }
+}
+
+/// Moves the joint of a bone that hangs on none along y.
+void place_root(Character& character, std::uint32_t bone, float y) {
+  character.skeleton.bones[bone].parent = kNone;
+  character.skeleton.bones[bone].rest.translation = Vec3f(0, y, 0);
+  Affine3f bone_from_bind = Affine3f::Identity();
+  bone_from_bind.translation() = Vec3f(0, -y, 0);
+  character.skins[0].bone_from_bind[bone] = bone_from_bind;
+}
+
+/// Severs at the default share or the nearest one that works, and takes off all that comes free.
+std::size_t sever_somewhere(TornModel& model, const std::string& bone) {
+  SeverOperation wanted = sever_of(bone, 0);
+  wanted.caps = false;  // their area is not what is left
+  const auto sever = at_nearest_share(model, wanted);
+  EXPECT_TRUE(sever) << sever.error().text();
+  return sever ? sever_and_detach(model, std::get<SeverOperation>(*sever)) : 0;
+}
+
+/// The tip of a spike consists of crossed faces alone, and another part touches it there.
+TEST(SeveredPieces, a_tip_comes_off_and_what_touches_it_stays) {
+  Character character = test::make_tube(2, 8, 3);
+  character.rest_morph_weights.clear();
+  character.meshes[0].morph_targets.clear();
+  character.clips.clear();
+  Mesh spike = character.meshes[0];
+  spike.name = "spike";
+  for (Vec3f& position : spike.positions)
+    if (position.y() > 2.9f) position = Vec3f(0, 3, 0);
+  weigh_by_height(spike, {{0.0f, 0}, {1.0f, kHand}});
+  Mesh& leaf = character.meshes[0];
+  for (Vec3f& position : leaf.positions) position += Vec3f(0.5f, 3, 0);
+  weigh_by_height(leaf, {{0.0f, 0}});
+  for (Vec3f& position : leaf.positions)  // the lower rim ends in the tip
+    if (position.y() < 3.1f) position = Vec3f(0, 3, 0);
+  character.meshes.push_back(std::move(spike));
+  TornModel model = make_model(std::move(character));
+  const double leaf_before = area_left(model, 0, 0), before = area_left(model, 1, kHand);
+  EXPECT_EQ(sever_and_detach(model, sever_of("bone2", 0.5)), 1u);
+  EXPECT_EQ(area_left(model, 0, 0), leaf_before);
+  EXPECT_LT(area_left(model, 1, kHand), before - 0.1);
+}
+
+/// A flat list of bones, of which the head moves most, and whose joint lies in its upper half.
+TEST(SeveredPieces, a_head_that_hangs_on_no_bone_comes_off_and_the_body_stays) {
+  Character character = test::make_tube(30, 16, 3);
+  character.clips.clear();
+  place_root(character, 0, 0);
+  place_root(character, 1, 1);
+  place_root(character, kHand, 2.6f);
+  weigh_by_height(character.meshes[0], {{0.0f, 0}, {0.85f, 1}, {1.65f, kHand}});
+  TornModel model = make_model(std::move(character));
+  const double head = area_left(model, 0, kHand), body = area_left(model, 0, 1),
+               legs = area_left(model, 0, 0);
+  EXPECT_EQ(sever_somewhere(model, "bone2"), 1u);
+  EXPECT_LT(area_left(model, 0, kHand), 0.5 * head);
+  EXPECT_GE(area_left(model, 0, 1), 0.9 * body);
+  EXPECT_EQ(area_left(model, 0, 0), legs);
+}
+
+/// The joint of the foot lies at the knee: a cut there would take the calf along.
+TEST(SeveredPieces, most_of_what_the_parent_moves_stays) {
+  Character character = test::make_tube(30, 16, 3);
+  character.clips.clear();
+  weigh_by_height(character.meshes[0], {{0.0f, 0}, {0.95f, 1}, {1.45f, kHand}});
+  character.skeleton.bones[kHand].rest.translation = Vec3f(0, 0.02f, 0);
+  character.skins[0].bone_from_bind[kHand].translation() = Vec3f(0, -1.02f, 0);
+  TornModel model = make_model(std::move(character));
+  const double parent = area_left(model, 0, 1), limb = area_left(model, 0, kHand);
+  EXPECT_EQ(sever_somewhere(model, "bone2"), 1u);
+  EXPECT_GE(area_left(model, 0, 1), 0.25 * parent);
+  EXPECT_LT(area_left(model, 0, kHand), 0.5 * limb);
+}
+
+/// A doll of shells; the ball in its hip lies before the joint, and moves with hip and thigh.
+TEST(SeveredPieces, a_limb_of_a_doll_comes_off_as_a_whole) {
+  Character character = test::make_tube(24, 16, 3);
+  character.clips.clear();
+  const Mesh shell = character.meshes[0], small = test::make_tube(10, 8, 3).meshes[0];
+  for (Vec3f& position : character.meshes[0].positions) position.y() *= 0.3f;
+  weigh_by_height(character.meshes[0], {{0.0f, 0}});
+  add_prop(character, small, "ball", {0.3f, 0.03f, 0.3f}, {0, 0.88f, 0}, 1);
+  Mesh& ball = character.meshes[1];
+  ball.weights = SkinWeights();
+  const std::array of_both = {Influence{0, 0.6f}, Influence{1, 0.4f}};
+  for (std::uint32_t vertex = 0; vertex < ball.vertex_count(); ++vertex)
+    ball.weights.append(of_both);
+  add_prop(character, shell, "thigh", {1, 0.3f, 1}, {0, 1.02f, 0}, 1);
+  add_prop(character, shell, "shin", {1, 0.3f, 1}, {0, 2.05f, 0}, kHand);
+  TornModel model = make_model(std::move(character));
+  const double hip = area_left(model, 0, 0), thigh = area_left(model, 2, 1);
+  EXPECT_EQ(sever_somewhere(model, "bone1"), 2u);
+  EXPECT_EQ(area_left(model, 0, 0), hip);
+  EXPECT_LT(area_left(model, 2, 1), 0.7 * thigh);
+  EXPECT_EQ(area_left(model, 3, kHand), 0.0);
 }
 
 /// The cut-off hand is a part of the body still: it counts as what the forearm held.

@@ -1,6 +1,7 @@
 // `sunder tear --pieces`: detached pieces as files.
 
 #include "support/machine/gltf_validator.h"
+#include "support/models/rigs.h"
 #include "tools/command_fixture.h"
 
 namespace sunder::command_test {
@@ -47,6 +48,38 @@ TEST_F(DetachCommand, pieces_that_came_free_are_written) {
     const CommandResult info = run_sunder({"info", prefix + "1.glb", "--json"});
     EXPECT_EQ(json::parse(info.out)["clips"].empty(), !is_animated);
   }
+}
+
+/// A tube with a smaller one inside that is turned inside out, such as a head and its mouth: the
+/// cap joins them.
+TEST_F(DetachCommand, what_the_cap_joins_comes_off_as_one_piece) {
+  Character character = test::make_tube(24, 16, 3);
+  character.clips.clear();
+  Mesh& mesh = character.meshes[0];
+  const Mesh outer = mesh;
+  mesh.uv_sets.clear();
+  mesh.normals.clear();
+  mesh.tangents.clear();
+  mesh.morph_targets.clear();
+  for (std::uint32_t vertex = 0; vertex < outer.vertex_count(); ++vertex) {
+    mesh.positions.push_back(outer.positions[vertex].cwiseProduct(Vec3f(0.5f, 0.9f, 0.5f)) +
+                             Vec3f(0, 0.15f, 0));
+    mesh.weights.append(outer.weights.of(vertex));
+  }
+  for (std::uint32_t t = 0; t < outer.triangle_count(); ++t) {
+    const Triangle inner = outer.triangles[t];
+    const std::uint32_t first = outer.vertex_count();
+    mesh.triangles.push_back({first + inner[2], first + inner[1], first + inner[0]});
+    mesh.triangle_submesh.push_back(outer.triangle_submesh[t]);
+  }
+  character.rest_morph_weights.clear();
+  ASSERT_TRUE(save_glb(path("hollow.glb"), character));
+  const CommandResult result = run_sunder({"tear", path("hollow.glb"), "--sever", "bone1@0.5",
+                                           "--pieces", path("top"), "-o", path("rest.glb")});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(exists("top1.glb"));
+  EXPECT_FALSE(exists("top2.glb"));
+  EXPECT_EQ(topology_of(path("rest.glb"))["components"], 1);
 }
 
 TEST_F(DetachCommand, a_saved_log_gives_the_same_model) {

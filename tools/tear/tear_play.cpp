@@ -140,6 +140,15 @@ Status play_one(const Operation& operation, const std::string& place, bool is_me
   return status;
 }
 
+/// Whether a piece that is to come off came off with another one: a cap joins the skin of a head to
+/// the mouth inside it.
+bool has_come_off(const Operation& detachment, const TornModel& model) {
+  const auto& detach = std::get<DetachOperation>(detachment);
+  const auto* const place = std::get_if<PieceOfTriangle>(&detach.piece);
+  return place != nullptr &&
+         is_retired(model.character().meshes[place->mesh].triangles[place->triangle]);
+}
+
 /// Applies a wanted operation, and takes off what it severs.
 Status play_wanted(const WantedOperation& wanted, bool is_measured, TopologyCounts& current,
                    TearRun& run) {
@@ -151,9 +160,11 @@ Status play_wanted(const WantedOperation& wanted, bool is_measured, TopologyCoun
       !status)
     return status;
   if (run.totals.missed > missed) return {};
-  for (const Operation& detachment : tears->detachments)
+  for (const Operation& detachment : tears->detachments) {
+    if (has_come_off(detachment, run.model)) continue;
     if (const Status status = play_one(detachment, wanted.place, false, current, run); !status)
       return status;
+  }
   return {};
 }
 

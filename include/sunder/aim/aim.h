@@ -60,8 +60,9 @@ struct SeveredPieces {
 };
 
 /// Finds what comes off when the sever is resolved and applied, for detach(): the places are on the
-/// pieces also after the cut. Near the joint of the bone all props go along; further out those that
-/// lie beyond the cut or move with the bones below.
+/// pieces also after the cut. Where a cap joins two pieces, both places are on one; the second is
+/// on none once that has come off. Near the joint of the bone all props go along; further out those
+/// that lie beyond the cut or move with the bones below.
 /// @return as resolve().
 [[nodiscard]] SUNDER_API Result<SeveredPieces> severed_pieces(const TornModel& model,
                                                               const SeverOperation& sever);
