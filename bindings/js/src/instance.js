@@ -100,10 +100,20 @@ export class Instance {
   play(clip = 0, options = {}) { return this.#layer('sunder_play', clip, options); }
   crossFade(clip, options = {}) { return this.#layer('sunder_cross_fade', clip, options); }
   stop() { this.#call('sunder_stop'); }
+  /** Refuses what the library would read past the end of. */
+  #checkedMorphWeights(weights) {
+    const count = this.#model.morphWeightCount;
+    if (weights !== null && weights.length !== count) throw invalidArgument(`${weights.length} morph weights; the model has ${count}`);
+    return weights;
+  }
   /** The pose of the next update: 12 numbers per bone, model_from_bone, column after column. */
-  setMatrices(matrices, morphWeights = null) { this.#call('sunder_set_matrices', matrices, matrices.length / 12, morphWeights); }
+  setMatrices(matrices, morphWeights = null) {
+    this.#call('sunder_set_matrices', matrices, matrices.length / 12, this.#checkedMorphWeights(morphWeights));
+  }
   /** The pose of the next update: { translation, rotation, scale } per bone, each relative to its parent. */
-  setTransforms(transforms, morphWeights = null) { this.#call('sunder_set_transforms', transforms, transforms.length, morphWeights); }
+  setTransforms(transforms, morphWeights = null) {
+    this.#call('sunder_set_transforms', transforms, transforms.length, this.#checkedMorphWeights(morphWeights));
+  }
   /** The pose of the last update, 12 numbers per bone: a view until the next one. */
   get matrices() {
     const { model_from_bone, bone_count } = this.#call('sunder_get_pose');

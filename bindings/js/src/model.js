@@ -65,6 +65,8 @@ export class Model extends Owned {
     const { clips, clip_count } = this.#data, { memory } = this.#calls;
     return memory.readStructs(sunder_clip, clips, clip_count).map(({ name, duration }) => ({ name: memory.text(name), duration }));
   }
+  /** How many weights a pose has for the morph targets of all meshes. */
+  get morphWeightCount() { return this.#data.morph_weight_count; }
   /** What loading repaired, dropped or tells: { kind, place, text, count }. */
   get notes() {
     const { memory } = this.#calls;

@@ -101,6 +101,7 @@ export class Model extends Disposable {
   readonly meshCount: number;
   readonly bones: { name: string; parent: number | null; rest: Transform }[];
   readonly clips: { name: string; duration: number }[];
+  readonly morphWeightCount: number;
   readonly notes: { kind: 'information' | 'repaired' | 'dropped' | 'warning'; place: string; text: string; count: number }[];
   mesh(index: number): MeshData;
   bone(name: string): number;

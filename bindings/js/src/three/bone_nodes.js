@@ -1,4 +1,4 @@
-// Which object of a loaded glTF is which bone of a model.
+// Which object of a loaded glTF is which bone of a model, and which has its morph weights.
 import { Matrix4 } from 'three';
 
 /** The nodes of the scene as the library orders bones: whole trees, parents first, children in their order. */
@@ -16,10 +16,17 @@ function orderedNodes({ nodes = [], scenes = [], scene = 0 }) {
   return [...order];
 }
 
+/** The morph weights of an object that GLTFLoader made of a node: of its mesh, or of the first of its meshes. */
+const influencesOf = (object) => (object.isMesh ? object : object.children.find((mesh) => mesh.isMesh && mesh.morphTargetInfluences))?.morphTargetInfluences;
+/** How many morph weights a node's mesh has, in glTF. */
+const targetCount = ({ meshes = [] }, { mesh }) => (mesh === undefined ? 0 : Math.max(...meshes[mesh].primitives.map(({ targets = [] }) => targets.length)));
+
 export class BoneNodes {
   #root;
   #objects;
   #matrices;
+  #morphed;
+  #morphWeights;
 
   constructor(model, { scene, parser }) {
     this.#root = scene;
@@ -29,7 +36,10 @@ export class BoneNodes {
       if (node !== undefined && !byNode.has(node)) byNode.set(node, object);
     });
     // A matrix with shear has become two bones; no vertex hangs on the first.
-    const bones = model.bones, objects = orderedNodes(parser.json).map((node) => byNode.get(node));
+    const bones = model.bones, nodes = orderedNodes(parser.json), objects = nodes.map((node) => byNode.get(node));
+    this.#morphed = nodes.map((node) => ({ object: byNode.get(node), count: targetCount(parser.json, parser.json.nodes[node]) }))
+      .filter(({ count }) => count > 0);
+    this.#morphWeights = new Float32Array(model.morphWeightCount);
     this.#objects = bones.map(({ name }) => (name.endsWith('#shear') ? objects[0] : objects.shift()));
     if (objects.length || this.#objects.includes(undefined))
       throw new Error(`the scene has other nodes than the model has bones (${bones.length}): load both from the same file`);
@@ -45,5 +55,16 @@ export class BoneNodes {
       for (let k = 0; k < 12; ++k) this.#matrices[12 * i + k] = elements[Math.floor(k / 3) * 4 + (k % 3)];
     });
     return this.#matrices;
+  }
+
+  /** The weights of all morph targets, as the library orders them: node by node. */
+  morphWeights() {
+    let first = 0;
+    for (const { object, count } of this.#morphed) {
+      const influences = influencesOf(object) ?? [];
+      for (let i = 0; i < count; ++i) this.#morphWeights[first + i] = influences[i] ?? 0;
+      first += count;
+    }
+    return this.#morphWeights;
   }
 }

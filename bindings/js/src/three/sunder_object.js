@@ -54,11 +54,11 @@ export class SunderObject extends Group {
     return this.#plain;
   }
 
-  /** Gives the instance the pose in which the objects of the loaded glTF stand, as an AnimationMixer moves them. Before Scene.update(). */
+  /** Gives the instance the pose and morph weights of the objects of the loaded glTF, as an AnimationMixer moves them. Before Scene.update(). */
   copyPose() {
     if (this.#gltf === null) throw new Error('copyPose() reads the bones of `gltf`, which the constructor was not given');
     this.#nodes ??= new BoneNodes(this.#instance.model, this.#gltf);
-    this.#instance.setMatrices(this.#nodes.matrices());
+    this.#instance.setMatrices(this.#nodes.matrices(), this.#nodes.morphWeights());
   }
 
   /** Copies what the last Scene.update() changed. */
