@@ -269,6 +269,28 @@ TEST(snapshot, moments_of_clips_take_the_place_of_poses) {
   EXPECT_LT(bytes, 3000u);
 }
 
+TEST(snapshot, operations_keep_weights_that_are_not_those_of_the_asset) {
+  CharacterAssetOptions options;
+  options.weights = {WeightPolicy::pose_exact, 0};
+  auto asset = CharacterAsset::create(std::make_shared<const Character>(test::make_tube(24, 16, 3)),
+                                      options);
+  ASSERT_TRUE(asset) << asset.error().text();
+  auto scene = Scene::create({}), again = Scene::create({});
+  ASSERT_TRUE(scene && again);
+  const auto id = scene->spawn(*asset);
+  ASSERT_TRUE(id);
+  PlaneCut cut;
+  cut.point = {0, 0.9, 0};
+  cut.normal = {0.1, 1, 0};
+  cut.weights = WeightOptions{};
+  ASSERT_TRUE(scene->submit(*id, cut));
+  ASSERT_TRUE(scene->update(0.01));
+  const std::vector<std::shared_ptr<const CharacterAsset>> assets = {*asset};
+  ASSERT_TRUE(again->restore(*scene->save(), assets));
+  ASSERT_NE(scene->find(*id)->model()->digest(), 0u);
+  EXPECT_EQ(again->find(*id)->model()->digest(), scene->find(*id)->model()->digest());
+}
+
 TEST(snapshot, damaged_bytes_are_refused_and_change_nothing) {
   const Assets assets = make_assets(false);
   const std::vector<std::byte> good = value_of(torn_scene(assets).save());
