@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 #include <queue>
+#include <set>
 #include <utility>
 
 namespace sunder::tools {
@@ -89,13 +90,13 @@ class FromTips {
   std::map<std::uint32_t, double> distances_;
 };
 
-/// Half of the lips that a wound has.
+/// The length of a wound: half that of its lips.
 double length_of(const CharacterInstance& instance, const Wound& wound, const Points& points) {
-  std::map<std::uint32_t, bool> is_lip;
-  for (const LipPair& pair : wound.lips) is_lip[pair.left] = is_lip[pair.right] = true;
+  std::set<std::uint32_t> of_wound;
+  for (const LipPair& pair : wound.lips) of_wound.insert({pair.left, pair.right});
   double length = 0;
   for (const LipEdge& edge : instance.particles()->lips())
-    if (is_lip.contains(edge.points[0]) || is_lip.contains(edge.points[1]))
+    if (of_wound.contains(edge.points[0]) || of_wound.contains(edge.points[1]))
       length += points.distance(edge.points[0], edge.points[1]) / 2;
   return length;
 }
@@ -110,14 +111,14 @@ using Moves = std::map<std::uint32_t, Vec3f>;  ///< Of points.
 
 /// Lets the points around those that are moved follow them, the more the shorter the edges between
 /// them are.
-void spread(const Points& points, const std::map<std::uint32_t, bool>& is_lip, Moves& moves) {
+void spread(const Points& points, const std::set<std::uint32_t>& lips, Moves& moves) {
   std::vector<std::uint32_t> ring, followers;
   for (const auto& [point, move] : moves) ring.push_back(point);
   for (int i = 0; i < kRings; ++i) {
     std::vector<std::uint32_t> next;
     for (const std::uint32_t point : ring)
       points.for_each_neighbour(point, [&](std::uint32_t other) {
-        if (is_lip.contains(other) || !moves.try_emplace(other, Vec3f::Zero()).second) return;
+        if (lips.contains(other) || !moves.try_emplace(other, Vec3f::Zero()).second) return;
         next.push_back(other);
       });
     followers.insert(followers.end(), next.begin(), next.end());
@@ -145,9 +146,9 @@ void taper_wounds(const CharacterInstance& instance, std::span<const Wound> woun
   const Points at_rest(instance, closed), opened(instance, open);
   const FromTips from_tips(instance, wounds, at_rest);
   Moves moves;
-  std::map<std::uint32_t, bool> is_lip;
+  std::set<std::uint32_t> lips;
   for (const LipEdge& edge : instance.particles()->lips())
-    for (const std::uint32_t point : edge.points) is_lip[point] = true;
+    lips.insert(edge.points.begin(), edge.points.end());
   for (const Wound& wound : wounds) {
     const double length = length_of(instance, wound, at_rest);
     double widest = 0;
@@ -165,7 +166,7 @@ void taper_wounds(const CharacterInstance& instance, std::span<const Wound> woun
       moves[pair.right] = -move;
     }
   }
-  spread(at_rest, is_lip, moves);
+  spread(at_rest, lips, moves);
   for (std::uint32_t m = 0; m < open.size(); ++m) {
     const std::span<const std::uint32_t> points = instance.particles()->vertex_points(m);
     for (std::uint32_t v = 0; v < points.size(); ++v)
