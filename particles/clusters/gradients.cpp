@@ -70,7 +70,7 @@ class FaceGradients {
     if (count_ <= 4) return count_;
     const auto end = sums_.begin() + static_cast<std::ptrdiff_t>(count_);
     std::stable_sort(sums_.begin(), end, [](const Sum& a, const Sum& b) {
-      return a.gradient.squaredNorm() > b.gradient.squaredNorm();
+      return dot(a.gradient, a.gradient) > dot(b.gradient, b.gradient);
     });
     return 4;
   }
