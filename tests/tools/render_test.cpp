@@ -188,14 +188,15 @@ Meeting meet(const TriangleTree::Corners& triangle, const Vec3f& from, const Vec
           static_cast<float>(std::min({found[0], found[1], 1 - found[0] - found[1]}))};
 }
 
+/// In the box from -1 to 1.
+Vec3f place_in_box(test::Random& random) {
+  return Vec3d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)).cast<float>();
+}
+
 TEST(TriangleTree, finds_what_a_search_of_all_triangles_finds) {
   for (std::uint32_t seed = 1; seed <= 20; ++seed) {
     test::Random random(seed);
-    const auto place = [&] {
-      return Vec3d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1))
-          .cast<float>()
-          .eval();
-    };
+    const auto place = [&] { return place_in_box(random); };
     std::vector<TriangleTree::Corners> triangles;
     for (std::uint32_t i = 0; i < 40 * seed; ++i) {
       const Vec3f a = place();
@@ -226,11 +227,7 @@ TEST(TriangleTree, finds_what_a_search_of_all_triangles_finds) {
 TEST(TriangleTree, bundles_find_what_single_rays_find) {
   for (std::uint32_t seed = 1; seed <= 20; ++seed) {
     test::Random random(seed);
-    const auto place = [&] {
-      return Vec3d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1))
-          .cast<float>()
-          .eval();
-    };
+    const auto place = [&] { return place_in_box(random); };
     std::vector<TriangleTree::Corners> triangles;
     std::vector<bool> has_hole;
     for (std::uint32_t i = 0; i < 20 * seed; ++i) {
