@@ -1,8 +1,11 @@
 #include <sunder/binding/binding.h>
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
-#include <Eigen/SVD>
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 
 #include "binding/bone_pairs.h"
 #include "binding/joined.h"
@@ -31,8 +34,14 @@ Result<Affine3d> fit(const Character& model, const Character& rig, std::span<con
   // Joints on a line leave the turn about it open.
   const auto second_axis = [](const Eigen::Matrix3Xd& joints) {
     if (joints.cols() < 3) return 0.0;
-    const Eigen::JacobiSVD<Eigen::Matrix3Xd> axes(joints.colwise() - joints.rowwise().mean());
-    return axes.singularValues()[0] > 0 ? axes.singularValues()[1] / axes.singularValues()[0] : 0.0;
+    const Vec3d middle = joints.rowwise().mean();
+    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+    for (Eigen::Index c = 0; c < joints.cols(); ++c)
+      spread += (joints.col(c) - middle) * (joints.col(c) - middle).transpose();
+    const Eigen::Vector3d squares =
+        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread, Eigen::EigenvaluesOnly)
+            .eigenvalues();
+    return squares[2] > 0 ? std::sqrt(std::max(squares[1], 0.0) / squares[2]) : 0.0;
   };
   if (second_axis(of_model) < 1e-3 || second_axis(of_rig) < 1e-3)
     return Status::failure(StatusCode::invalid_argument, kNone,

@@ -75,3 +75,8 @@ function(sunder_compile_options target)
     target_compile_options(${target} PRIVATE -Werror)
   endif()
 endfunction()
+
+# For what does not run long, the command and imports: -O1 in release builds, which saves a quarter of its compile time.
+function(sunder_compile_quickly target)
+  target_compile_options(${target} PRIVATE $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU,Clang,AppleClang>>:-O1>)
+endfunction()

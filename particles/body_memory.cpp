@@ -1,12 +1,10 @@
 #include "particles/body_state.h"
+#include "particles/internal/vector_bytes.h"
 
 namespace sunder::particles {
 namespace {
 
-template <class T>
-std::size_t bytes_of(const std::vector<T>& values) {
-  return values.capacity() * sizeof(T);
-}
+using particles::bytes_of;
 
 std::size_t bytes_of(const Motion& motion) {
   std::size_t bytes = bytes_of(motion.serials) + bytes_of(motion.material_of) +

@@ -28,7 +28,7 @@ constexpr double kWorth = 1.02;
 
 /// Attempts to find a fit over some bones that exceeds no bound, and steps to improve one.
 constexpr int kMostAttempts = 8;
-constexpr int kMostSteps = 8;
+constexpr int kMostDescents = 8;
 /// What a multiplier is raised by if it was too small.
 constexpr double kRaise = 3;
 /// Share of the longest step that is taken, because stored weights are rounded.
@@ -380,7 +380,7 @@ double PointRefit::Problem::longest_step(const PointToRefit& point, const State&
 /// optimum with multipliers as far as all bounds hold, and raises the multiplier of the bound that
 /// stops it.
 void PointRefit::Problem::descend(const PointToRefit& point, State& from) {
-  for (int attempt = 0; attempt < kMostSteps; ++attempt) {
+  for (int attempt = 0; attempt < kMostDescents; ++attempt) {
     weights_ = from.weights;
     position_ = from.position;
     set_position(position_);
@@ -394,7 +394,7 @@ void PointRefit::Problem::descend(const PointToRefit& point, State& from) {
     store(between_, stored_);
     const double before = from.value;
     if (stored_.value < before && !find_excess(point, stored_)) std::swap(from, stored_);
-    if (step >= kSafety || attempt + 1 == kMostSteps) return;
+    if (step >= kSafety || attempt + 1 == kMostDescents) return;
     const double gain = before - objective_.mean_square(weights_, from.position);
     raise_multiplier(point, blocking, std::max(gain, kLeastGain * before));
   }

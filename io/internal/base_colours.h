@@ -43,6 +43,9 @@ struct BaseColours {
   std::uint32_t left_out = 0;  ///< Images that are missing, of another kind, or beyond the limit.
 };
 
+/// The limit for the images of what is drawn or shown, all together, in bytes.
+inline constexpr std::uint64_t kMostImageBytes = std::uint64_t{256} << 20;
+
 /// Reads what a loaded file says of its materials; what is missing or malformed has its default.
 /// Images are read as saving reads them: from the file or its own folder.
 /// @param maximum_bytes  limit for all images together.

@@ -1,20 +1,12 @@
 #include "particles/clusters/band.h"
 #include "particles/clusters/gradients.h"
 #include "particles/clusters/set_data.h"
+#include "particles/internal/vector_bytes.h"
 
 namespace sunder::particles {
 namespace {
 
-template <class T>
-std::size_t bytes_of(const std::vector<T>& values) {
-  return values.capacity() * sizeof(T);
-}
-template <class T>
-std::size_t bytes_of(const std::vector<std::vector<T>>& lists) {
-  std::size_t bytes = lists.capacity() * sizeof(std::vector<T>);
-  for (const std::vector<T>& list : lists) bytes += bytes_of(list);
-  return bytes;
-}
+using particles::bytes_of;
 
 std::size_t bytes_of(const Particle& particle) {
   return sizeof(Particle) + bytes_of(particle.terms) + bytes_of(particle.morph_terms) +

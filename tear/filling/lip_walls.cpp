@@ -9,7 +9,7 @@ namespace {
 
 /// The points of a wall below a place, or its vertices there.
 template <class T>
-using Rows = std::array<T, LipWalls::kMostRows + 1>;
+using WallRows = std::array<T, LipWalls::kMostRows + 1>;
 
 /// The cross-section of a wall: from the lip, for a lip that rolls outwards around a rim, and then
 /// in an arc downwards and below the opposite lip.
@@ -34,7 +34,7 @@ struct Profile {
     return size * (of.under * place.lean * place.under + of.down * place.down);
   }
 
-  Rows<Row> rows = {};  ///< Row 0 is the lip.
+  WallRows<Row> rows = {};  ///< Row 0 is the lip.
   std::size_t count = 1;
 };
 
@@ -49,8 +49,8 @@ class LipStrip {
         unit_(unit),
         walls_(walls),
         builder_(builder),
-        points_(places.size(), Rows<Index>{}, &builder.scratch()),
-        firsts_(places.size(), Rows<VertexRef>{}, &builder.scratch()) {
+        points_(places.size(), WallRows<Index>{}, &builder.scratch()),
+        firsts_(places.size(), WallRows<VertexRef>{}, &builder.scratch()) {
     find_seam();
   }
 
@@ -76,7 +76,7 @@ class LipStrip {
 
  private:
   struct Column {
-    Rows<WallCorner> corners = {};
+    WallRows<WallCorner> corners = {};
     bool is_smooth = false;  ///< Whether the next edge goes on with it.
   };
 
@@ -134,7 +134,7 @@ class LipStrip {
 
   void make_points(std::size_t at) {
     const LipPlace& place = places_[at];
-    Rows<Index>& points = points_[at];
+    WallRows<Index>& points = points_[at];
     if (points[1] != 0) return;
     const std::size_t twin = rim_.is_closed && at == count() ? 0 : at;
     if (twin != at && points_[twin][1] != 0) {
@@ -284,10 +284,10 @@ class LipStrip {
   double unit_;
   LipWalls& walls_;
   WallBuilder& builder_;
-  ScratchVector<Rows<Index>> points_;  ///< Per place; made when the first vertex needs them.
+  ScratchVector<WallRows<Index>> points_;  ///< Per place; made when the first vertex needs them.
   /// Per place: the first vertices of these points. The others are copies, so that they are at the
   /// same place, bit for bit.
-  ScratchVector<Rows<VertexRef>> firsts_;
+  ScratchVector<WallRows<VertexRef>> firsts_;
   std::size_t seam_ = 0;  ///< The first edge that counts from the end of the rim.
   double first_along_ = 0, last_along_ = 0;
 };

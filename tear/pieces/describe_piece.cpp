@@ -3,26 +3,11 @@
 #include <algorithm>
 
 #include "core/internal/ordered.h"
+#include "tear/detached/connected_faces.h"
 #include "tear/internal/surface.h"
 
 namespace sunder::tear {
 namespace {
-
-/// The faces that are connected to a face, ascending.
-std::vector<Index> connected_faces(Index face, const Surface& surface) {
-  std::vector<bool> is_found(surface.triangle_count(), false);
-  std::vector<Index> faces = {face};
-  is_found[face] = true;
-  for (std::size_t i = 0; i < faces.size(); ++i)
-    for (Index h = 3 * faces[i]; h < 3 * faces[i] + 3; ++h) {
-      const Index twin = surface.twin[h];
-      if (twin == kNone || is_found[twin / 3]) continue;
-      is_found[twin / 3] = true;
-      faces.push_back(twin / 3);
-    }
-  std::sort(faces.begin(), faces.end());
-  return faces;
-}
 
 /// The bones that move vertices.
 class MovingBones {

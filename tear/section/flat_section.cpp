@@ -8,8 +8,8 @@ namespace sunder::tear {
 namespace {
 
 /// The points of the loops of a region, consecutive, and the ends of its loops.
-struct Rim {
-  explicit Rim(std::pmr::memory_resource& memory) : points(&memory), ends(&memory) {}
+struct SectionRim {
+  explicit SectionRim(std::pmr::memory_resource& memory) : points(&memory), ends(&memory) {}
 
   /// @return false if a loop is not a polygon or not in range.
   [[nodiscard]] bool append(const FlatLoop& loop) {
@@ -63,7 +63,7 @@ void collect_inside(const ConstrainedDelaunay& triangulation, std::size_t count,
 
 std::optional<FlatMesh> triangulate(std::span<const FlatLoop> loops, const FlatRegion& region,
                                     InnerPoints inner, std::pmr::memory_resource& memory) {
-  Rim rim(memory);
+  SectionRim rim(memory);
   std::size_t count = 0;
   if (region.outline >= loops.size()) return std::nullopt;
   for (const Index hole : region.holes) {

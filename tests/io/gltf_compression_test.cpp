@@ -3,6 +3,7 @@
 #include <sunder/io/character_file.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <meshoptimizer.h>
@@ -12,6 +13,7 @@
 
 #include "support/machine/gltf_validator.h"
 #include "support/machine/node_program.h"
+#include "support/machine/stress.h"
 #include "support/machine/temporary_folder.h"
 #include "support/models/compressed_gltf.h"
 #include "support/models/rigs.h"
@@ -565,8 +567,11 @@ TEST(LoadCompressed, our_decoders_agree_with_those_of_three) {
 TEST(LoadCompressed, files_of_gltfpack_are_read_as_three_reads_them) {
   SKIP_WITHOUT_DECOMPRESSOR();
   const TemporaryFolder folder;
+  const std::array<const char*, 3> all_options = {"-c", "-cc -vpf -vnf", "-c -cf"};
+  std::size_t next = 0;
   for (const auto& model : rigged_gltf_models())
-    for (const char* const options : {"-c", "-cc -vpf -vnf", "-c -cf"}) {
+    for (int i = 0; i < test::stressed(1, 3); ++i) {  // Models take turns with the options.
+      const char* const options = all_options[next++ % all_options.size()];
       SCOPED_TRACE(model.filename().string() + " " + options);
       const auto file = folder.path() / "packed.glb";
       const auto run = run_node_program(

@@ -80,7 +80,7 @@ foreach(package hwy TBB TinyGLTF assimp draco meshoptimizer nlohmann_json CLI11 
 endforeach()
 run(${CMAKE_COMMAND} -S ${consumer} -B ${WORK}/add_subdirectory ${common}
   -D SUNDER_SOURCE=${SUNDER_SOURCE} -D SUNDER_IO=OFF -D SUNDER_HIGHWAY=OFF -D CONSUMER_IO=OFF
-  -D BUILD_SHARED_LIBS=ON -D CMAKE_UNITY_BUILD=ON -D CMAKE_UNITY_BUILD_BATCH_SIZE=12 ${hidden})
+  -D BUILD_SHARED_LIBS=ON -D CMAKE_UNITY_BUILD=ON -D CMAKE_UNITY_BUILD_BATCH_SIZE=48 ${hidden})
 run(${CMAKE_COMMAND} --build ${WORK}/add_subdirectory --config ${CONFIG} --target consumer tear_consumer)
 run(${CMAKE_CTEST_COMMAND} --test-dir ${WORK}/add_subdirectory -C ${CONFIG} --output-on-failure
   --no-tests=error)

@@ -31,21 +31,17 @@ double volume_of(const TornModel& model, const ModelPose& pose, const TornPiece*
   double volume = 0;
   for (std::uint32_t m = 0; m < model.character().meshes.size(); ++m) {
     const auto positions = test::posed_positions(model.character(), m, pose);
-    std::vector<std::uint32_t> triangles;
+    std::vector<Triangle> triangles;
     if (piece == nullptr) {
-      for (std::uint32_t t = 0; t < model.character().meshes[m].triangle_count(); ++t)
-        triangles.push_back(t);
+      triangles = model.character().meshes[m].triangles;
     } else {
       const Result<PieceDescription> description = model.describe_piece(*piece);
       for (const PieceDescription::Triangles& of_mesh : description->meshes)
-        if (of_mesh.mesh == m) triangles = of_mesh.triangles;
+        if (of_mesh.mesh == m)
+          for (const std::uint32_t t : of_mesh.triangles)
+            triangles.push_back(model.character().meshes[m].triangles[t]);
     }
-    for (const std::uint32_t t : triangles) {
-      const Triangle& triangle = model.character().meshes[m].triangles[t];
-      volume +=
-          positions[triangle[0]].dot(Vec3d(positions[triangle[1]].cross(positions[triangle[2]]))) /
-          6;
-    }
+    volume += test::enclosed_volume(positions, triangles);
   }
   return volume;
 }

@@ -151,7 +151,7 @@ Character some_forest_rig(Random& random) {
 }
 
 /// Bones collapsed, mirrored, sheared and far away; morph weights below 0 and above 1.
-ModelPose hard_pose(const Character& character, Random& random) {
+ModelPose wild_pose(const Character& character, Random& random) {
   ModelPose pose = test::random_pose(character, random, 3, 2);
   for (Affine3d& bone : pose.model_from_bone) {
     const auto entry = [&] { return random.uniform(-2, 2); };
@@ -178,7 +178,7 @@ ModelPose hard_pose(const Character& character, Random& random) {
 }
 
 ModelPose some_pose(const Character& character, Random& random) {
-  return random.index(2) == 0 ? hard_pose(character, random) : test::random_pose(character, random);
+  return random.index(2) == 0 ? wild_pose(character, random) : test::random_pose(character, random);
 }
 
 bool holds(const FrameBox& box, const Vec3d& point) {
@@ -416,7 +416,7 @@ TEST(PatchForest, finds_the_same_as_testing_every_face) {
     Random random(1000 + seed);
     Torn torn(some_forest_rig(random));
     for (int round = 0; round < 5; ++round) {
-      torn.stand_in(random.index(3) == 0 ? hard_pose(torn.source, random)
+      torn.stand_in(random.index(3) == 0 ? wild_pose(torn.source, random)
                                          : test::random_pose(torn.source, random));
       const double size = size_of(torn);
       for (int i = 0; i < 30; ++i) {

@@ -21,13 +21,9 @@ using test::make_model;
 using test::Random;
 using testing::IsEmpty;
 
-double volume_of(const TornModel& model, const ModelPose& pose) {
-  double volume = 0;
-  const auto positions = test::posed_positions(model.character(), 0, pose);
-  for (const Triangle& triangle : model.character().meshes[0].triangles)
-    volume +=
-        positions[triangle[0]].dot(Vec3d(positions[triangle[1]].cross(positions[triangle[2]]))) / 6;
-  return volume;
+double volume_of_mesh(const TornModel& model, const ModelPose& pose) {
+  return test::enclosed_volume(test::posed_positions(model.character(), 0, pose),
+                               model.character().meshes[0].triangles);
 }
 
 void expect_sound_walls(const TornModel& model) {
@@ -84,7 +80,7 @@ TEST(Walls, of_a_tear_start_at_its_lips) {
 TEST(Walls, of_a_bore_through_a_body_close_it) {
   TornModel model = make_model(test::make_tube(16, 24, 3));
   const ModelPose pose = *bind_pose(model.source());
-  const double whole = volume_of(model, pose);
+  const double whole = volume_of_mesh(model, pose);
   Bore bore;
   bore.origin = {0.03, 1.5, 3};
   bore.direction = {0, 0, -2};
@@ -103,14 +99,14 @@ TEST(Walls, of_a_bore_through_a_body_close_it) {
     return static_cast<int>(c.points) - static_cast<int>(c.edges) + static_cast<int>(c.triangles);
   };
   EXPECT_EQ(euler(counts), euler(before) - 2);
-  EXPECT_LT(volume_of(model, pose), whole);
+  EXPECT_LT(volume_of_mesh(model, pose), whole);
   expect_sound_walls(model);
 }
 
 TEST(Walls, of_a_blind_bore_have_a_floor) {
   TornModel model = make_model(test::make_tube(16, 24, 3));
   const ModelPose pose = *bind_pose(model.source());
-  const double whole = volume_of(model, pose);
+  const double whole = volume_of_mesh(model, pose);
   Bore bore;
   bore.origin = {0.03, 1.5, 2};
   bore.direction = {0, 0, -1};
@@ -119,7 +115,7 @@ TEST(Walls, of_a_blind_bore_have_a_floor) {
   bore.wall = true;
   ASSERT_TRUE(model.drill(pose, bore));
   EXPECT_EQ(count_topology(model.character())->boundary_edges, 0u);
-  const double removed = whole - volume_of(model, pose);
+  const double removed = whole - volume_of_mesh(model, pose);
   EXPECT_GT(removed, 0.5 * std::numbers::pi * 0.01 * 0.1);
   EXPECT_LT(removed, std::numbers::pi * 0.01 * 0.35);
   expect_sound_walls(model);

@@ -14,11 +14,13 @@
 #include <limits>
 #include <map>
 #include <set>
+#include <span>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "support/machine/node_program.h"
+#include "support/machine/stress.h"
 #include "support/models/rigs.h"
 #include "support/models/shared_models.h"
 #include "tools/command_fixture.h"
@@ -609,9 +611,11 @@ double largest_miss(const Character& model, const json& facts) {
 
 TEST_F(ViewPage, clicks_meet_the_surface_of_real_models) {
   SUNDER_SKIP_WITHOUT_SHARED_MODELS();
-  // Textures, base colours, morph targets, no clips; read from GLB, COLLADA and FBX.
-  for (const char* const name : {"cactoro.glb", "fox.glb", "robot_expressive.glb", "mannequiny.glb",
-                                 "cesium_man.dae", "vr_glove.fbx"}) {
+  // Base colours, textures, morph targets, no clips; read from GLB, FBX and COLLADA.
+  const std::vector<const char*> names = {"robot_expressive.glb", "vr_glove.fbx", "fox.glb",
+                                          "cesium_man.dae",       "cactoro.glb",  "mannequiny.glb"};
+  for (const char* const name :
+       std::span(names).first(static_cast<std::size_t>(test::stressed(3, 2)))) {
     const auto file = test::shared_models() / "rigged" / name;
     ASSERT_EQ(run_sunder({"view", file.string(), "-o", path("real.html")}).exit_code, 0) << name;
     const json facts = used("probe", path("real.html"), "");

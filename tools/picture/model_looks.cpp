@@ -6,7 +6,6 @@
 namespace sunder::tools {
 namespace {
 
-constexpr std::uint64_t kMostImageBytes = std::uint64_t{1} << 28;
 const Vec4f kPlainColor(0.60f, 0.55f, 0.50f, 1.0f);
 
 RenderMaterial::Wrap wrap_of(BaseColour::Wrap wrap) {

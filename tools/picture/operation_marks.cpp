@@ -23,7 +23,7 @@ constexpr int kSides = 32;           // Of a circle.
 constexpr std::size_t kMarked = 40;  // Longer strokes have marks at their ends alone.
 
 /// The model's box, larger on each side by a share of its diagonal.
-Bounds enlarged(const Bounds& model, double share) {
+Bounds enlarged_box(const Bounds& model, double share) {
   Bounds box = model;
   box.least.array() -= share * model.size().norm();
   box.greatest.array() += share * model.size().norm();
@@ -62,7 +62,7 @@ std::vector<Vec3d> section_of(const Bounds& box, const Vec3d& point, const Vec3d
 /// The polygon in which a cut is drawn; empty if its plane passes the model by.
 std::vector<Vec3d> outline_of(const PlaneCut& cut, const Bounds& model) {
   const Vec3d normal = cut.normal.normalized();
-  if (cut.bounds.empty()) return section_of(enlarged(model, 0.06), cut.point, normal);
+  if (cut.bounds.empty()) return section_of(enlarged_box(model, 0.06), cut.point, normal);
   std::vector<Vec3d> corners;
   for (const Vec3d& corner : cut.bounds)
     corners.emplace_back(corner - (corner - cut.point).dot(normal) * normal);
@@ -205,7 +205,7 @@ struct Extremes {
 
 std::vector<Vec3d> places_of(const std::vector<NumberedOperation>& operations,
                              const Bounds& model) {
-  const Bounds box = enlarged(model, 0.5);
+  const Bounds box = enlarged_box(model, 0.5);
   std::vector<Vec3d> places;
   for (const NumberedOperation& logged : operations)
     for (const Vec3d& place : std::visit(Extremes{model}, *logged.operation))

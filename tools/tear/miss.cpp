@@ -23,11 +23,11 @@ constexpr std::size_t kMostMissedPoses = 32;
 constexpr std::size_t kTimesPerClip = 8;
 
 /// A unit other than metres: factors that turn a number into metres, or metres into the unit.
-struct Unit {
+struct OtherUnit {
   double factor;
   const char* advice;
 };
-constexpr Unit kUnits[] = {
+constexpr OtherUnit kOtherUnits[] = {
     {0.01, "scaled by 0.01 it would meet: are its numbers centimetres? Operations are in metres"},
     {0.001, "scaled by 0.001 it would meet: are its numbers millimetres? Operations are in metres"},
     {100,
@@ -69,7 +69,7 @@ std::string unit_advice(const Operation& operation, const PosedSurface& surface,
     reached.greatest = reached.greatest.cwiseMax(bounds.greatest);
   }
   const double size = diagonal(surface.bounds);
-  for (const Unit& unit : kUnits) {
+  for (const OtherUnit& unit : kOtherUnits) {
     const bool is_plausible = unit.factor < 1 ? distance > size : diagonal(reached) < 0.2 * size;
     const Operation corrected = scaled(operation, unit.factor);
     if (is_plausible && one_meets(surface, corrected) && is_hit(corrected, source))

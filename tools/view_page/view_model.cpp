@@ -17,9 +17,6 @@
 namespace sunder::tools {
 namespace {
 
-/// Limit for the images of a page, all together.
-constexpr std::uint64_t kMostImageBytes = std::uint64_t{256} << 20;
-
 /// Adds a model with its colours; `loaded` keeps what the page refers to.
 Status view(const std::filesystem::path& file, const ViewRequest& request, LoadedCharacter& loaded,
             ViewedModel& viewed) {

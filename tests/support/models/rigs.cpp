@@ -300,6 +300,15 @@ std::vector<Vec3d> posed_positions(const Character& character, std::uint32_t mes
   return positions;
 }
 
+double enclosed_volume(const std::vector<Vec3d>& positions,
+                       const std::vector<Triangle>& triangles) {
+  double volume = 0;
+  for (const Triangle& triangle : triangles)
+    volume +=
+        positions[triangle[0]].dot(Vec3d(positions[triangle[1]].cross(positions[triangle[2]]))) / 6;
+  return volume;
+}
+
 double posed_diagonal(const Character& character, const ModelPose& pose) {
   Eigen::AlignedBox3d box;
   for (std::uint32_t mesh = 0; mesh < character.meshes.size(); ++mesh)

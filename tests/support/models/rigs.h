@@ -50,6 +50,10 @@ Stroke random_stroke(const Character& character, const ModelPose& pose, Random& 
 std::vector<Vec3d> posed_positions(const Character& character, std::uint32_t mesh,
                                    const ModelPose& pose);
 
+/// The volume that a closed surface encloses, by the divergence theorem; negative if its faces look
+/// inwards.
+double enclosed_volume(const std::vector<Vec3d>& positions, const std::vector<Triangle>& triangles);
+
 /// Diagonal of the box around all meshes in a pose.
 double posed_diagonal(const Character& character, const ModelPose& pose);
 

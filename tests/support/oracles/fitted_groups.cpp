@@ -29,7 +29,7 @@ constexpr double kLeastGain = 1 - 1e-9;
 
 /// Weights and a bind position, as they are stored.
 struct StoredSkin {
-  Vec3f position;
+  Vec3f position = Vec3f::Zero();
   std::vector<Influence> influences;
 };
 
