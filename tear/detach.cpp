@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "core/internal/out_of_memory.h"
-#include "tear/detached/connected_faces.h"
 #include "tear/detached/find_piece.h"
 #include "tear/detached/make_piece.h"
 #include "tear/model/model_state.h"
+#include "tear/surface/connected_faces.h"
 
 namespace sunder {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "core/internal/ordered.h"
-#include "tear/detached/connected_faces.h"
 #include "tear/internal/surface.h"
+#include "tear/surface/connected_faces.h"
 
 namespace sunder::tear {
 namespace {

@@ -1,4 +1,4 @@
-#include "tear/detached/connected_faces.h"
+#include "tear/surface/connected_faces.h"
 
 #include "core/internal/index_set.h"
 #include "tear/surface/disconnect.h"
