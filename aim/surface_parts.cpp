@@ -58,8 +58,9 @@ std::vector<std::array<Index, 2>> coincident_edges(const PosedSurface& surface,
     if (places[point] != point) is_shared[places[point]] = true;
   std::vector<std::array<Index, 3>> edges;  // two places, ascending, and the half-edge
   for (Index h = 0; h < 3 * surface.face_count(); ++h) {
+    if (!surface.is_live(h / 3)) continue;
     const Index from = places[surface.point(h)], to = places[surface.point(Surface::next(h))];
-    if (!is_shared[from] || !is_shared[to] || from == to || !surface.is_live(h / 3)) continue;
+    if (!is_shared[from] || !is_shared[to] || from == to) continue;
     edges.push_back({std::min(from, to), std::max(from, to), h});
   }
   std::ranges::sort(edges);
