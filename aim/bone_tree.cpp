@@ -41,11 +41,23 @@ class SharedSurface {
     return found == shared_.end() ? 0.0 : found->second;
   }
 
+  /// Per bone, those with which it shares surface, ascending.
+  [[nodiscard]] std::vector<std::vector<SharedBone>> by_bone(std::size_t bone_count) const {
+    std::vector<std::vector<SharedBone>> lists(bone_count);
+    for (const auto& [pair, amount] : shared_) {  // the order of the map does not matter: sorted
+      const auto a = static_cast<Index>(pair >> 32), b = static_cast<Index>(pair);
+      lists[a].push_back({b, amount});
+      lists[b].push_back({a, amount});
+    }
+    for (std::vector<SharedBone>& list : lists) std::ranges::sort(list, {}, &SharedBone::bone);
+    return lists;
+  }
+
  private:
   static std::uint64_t key(Index a, Index b) {
     return (std::uint64_t{std::min(a, b)} << 32) | std::max(a, b);
   }
-  std::unordered_map<std::uint64_t, double> shared_;  // lookups only, never iterated
+  std::unordered_map<std::uint64_t, double> shared_;
 };
 
 /// The bones that move something and hang on none that does, with all that hangs on each: the trees
@@ -233,7 +245,9 @@ BoneTree::BoneTree(const PosedSurface& surface) {
     for_each_influence(surface, point,
                        [&](Index bone, double weight) { weights_[bone] += weight; });
   for (const Bone& bone : bones) parents_.push_back(bone.parent);
-  Adoption(surface, weights_, SharedSurface(surface), parents_).run();
+  const SharedSurface shared(surface);
+  shared_ = shared.by_bone(bones.size());
+  Adoption(surface, weights_, shared, parents_).run();
   for (Index bone = 0; bone < bones.size(); ++bone)
     is_adopted_.push_back(parents_[bone] != bones[bone].parent);
   children_.resize(bones.size());

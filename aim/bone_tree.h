@@ -9,6 +9,12 @@ namespace sunder::aim {
 /// Joints nearer than this share of the model's size are one place.
 constexpr double kSameJointSizes = 1e-5;
 
+/// How much surface a bone moves together with another one.
+struct SharedBone {
+  Index bone = 0;
+  double amount = 0;
+};
+
 /// The bones as a tree that follows the surface. It is that of the skeleton, except that a bone
 /// whose surface does not adjoin that of any bone above it hangs on the bone that it shares most
 /// surface with: the foot of a rig for inverse kinematics, which the skeleton hangs on the root, on
@@ -27,6 +33,9 @@ class BoneTree {
   [[nodiscard]] bool moves(Index bone) const { return weights_[bone] > 0; }
   [[nodiscard]] bool is_below(Index bone, Index top) const;
   [[nodiscard]] const std::vector<Index>& children(Index bone) const { return children_[bone]; }
+  /// The bones with which a bone shares surface, ascending: per pair, the sum over all faces of the
+  /// products of their weights.
+  [[nodiscard]] const std::vector<SharedBone>& shared(Index bone) const { return shared_[bone]; }
   /// The nearest bone above that moves something; kNone if there is none.
   [[nodiscard]] Index moving_parent(Index bone) const;
   /// A bone and those that have its parent and its rest transform: parts of one limb that a file
@@ -38,6 +47,7 @@ class BoneTree {
   std::vector<bool> is_adopted_;
   std::vector<std::vector<Index>> children_;
   std::vector<double> weights_;
+  std::vector<std::vector<SharedBone>> shared_;  ///< Per bone.
 };
 
 /// Calls visit(bone, weight) for the influences of a point.

@@ -11,7 +11,7 @@ namespace sunder::aim {
 /// The role of a bone for a limb.
 enum class BoneRole : std::uint8_t {
   own,     ///< The bone that the limb is named after, see BoneTree::same_bones().
-  below,   ///< In the subtree of that bone.
+  below,   ///< The others of the limb, see bones_of_limb().
   parent,  ///< The nearest bone above that moves something.
   above,   ///< Above that one.
   other,
@@ -42,6 +42,12 @@ class LimbBones {
   [[nodiscard]] Index bone() const { return bone_; }
   /// The nearest bone above that moves something; kNone if there is none.
   [[nodiscard]] Index parent() const { return parent_; }
+  /// Adds what a bone moves to the sums of all other limbs that hold it: its own, and those of the
+  /// bones on which it hangs. A bone above the limb counts alone.
+  void add_to_others(std::vector<double>& sums, Index bone, double amount) const {
+    if (roles_[bone] == BoneRole::own || roles_[bone] == BoneRole::below) return;
+    for (; bone != kNone; bone = other_above_[bone]) sums[bone] += amount;
+  }
   [[nodiscard]] LimbShares shares(Index point) const;
   /// Mean of the corners.
   [[nodiscard]] LimbShares shares_of_face(Index face) const;
@@ -50,6 +56,8 @@ class LimbBones {
   const PosedSurface& surface_;
   Index bone_, parent_;
   std::vector<BoneRole> roles_;  ///< Per bone of the skeleton.
+  /// Per bone of another limb, the one of it on which it hangs; kNone if there is none.
+  std::vector<Index> other_above_;
 };
 
 }  // namespace sunder::aim

@@ -106,65 +106,82 @@ HitHeights LimbRays::all_hits(const Vec3d& offset, const std::vector<bool>& is_l
     // `across` and `along` are left-handed as seen by the viewer.
     const bool is_facing = whole < 0;
     if (is_limb[face])
-      (is_facing ? hits.facing : hits.averted).push_back(height);
+      (is_facing ? hits.facing : hits.averted).push_back({height, face});
     else
-      (limb_.bones.shares_of_face(face).limb() >= 0.5 ? hits.kin : hits.others).push_back(height);
+      (limb_.bones.shares_of_face(face).limb() >= 0.5 ? hits.kin : hits.others)
+          .push_back({height, face});
   }
   return hits;
 }
 
-RayHit LimbRays::hit_at(double near, double far, const HitHeights& hits) const {
+RayHit LimbRays::hit_at(const MetFace& met, double far, const HitHeights& hits) const {
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
-  RayHit hit{near, far, kInfinite, kInfinite, kInfinite};
-  const auto limit = [&](const std::vector<double>& heights, double least) {
-    for (const double height : heights) {
+  const double near = met.height;
+  RayHit hit{near, far, met.face, kInfinite, kInfinite, kInfinite};
+  const auto limit = [&](const std::vector<MetFace>& faces, double least) {
+    for (const auto& [height, face] : faces) {
       if (height > near + least) hit.free_before = std::min(hit.free_before, height - near);
       if (height < far - least) hit.free_behind = std::min(hit.free_behind, far - height);
     }
   };
   limit(hits.others, 0);
-  for (const std::vector<double>* const heights : {&hits.facing, &hits.averted, &hits.kin})
-    limit(*heights, kSameSurfaceWidths * width_);
-  for (const double height : hits.others)
+  for (const std::vector<MetFace>* const faces : {&hits.facing, &hits.averted, &hits.kin})
+    limit(*faces, kSameSurfaceWidths * width_);
+  for (const auto& [height, face] : hits.others)
     if (height < near) hit.free_below = std::min(hit.free_below, near - height);
   return hit;
 }
 
 std::optional<RayHit> LimbRays::cast_at_middle() const {
   const HitHeights hits = all_hits(Vec3d::Zero(), is_of_section_);
-  const auto highest = [](const std::vector<double>& heights) {
-    return heights.empty() ? -std::numeric_limits<double>::infinity()
-                           : *std::max_element(heights.begin(), heights.end());
+  const auto highest = [](const std::vector<MetFace>& faces) {
+    return faces.empty() ? MetFace{-std::numeric_limits<double>::infinity(), kNone}
+                         : *std::ranges::max_element(faces, {}, &MetFace::height);
   };
   // The inside of the limb is not its near surface. A single sheet may be seen from behind.
-  const std::vector<double>& near = hits.facing.empty() ? hits.averted : hits.facing;
-  if (near.empty() || (hits.facing.empty() && highest(hits.others) > highest(near))) return {};
-  double far = highest(near);
-  for (const double height : hits.averted) far = std::min(far, height);
-  return hit_at(highest(near), far, hits);
+  const MetFace near = highest(hits.facing.empty() ? hits.averted : hits.facing);
+  if (near.face == kNone || (hits.facing.empty() && highest(hits.others).height > near.height))
+    return {};
+  double far = near.height;
+  for (const MetFace& met : hits.averted) far = std::min(far, met.height);
+  return hit_at(near, far, hits);
 }
 
 std::optional<RayHit> LimbRays::cast(const Vec3d& offset, const RayHit& neighbour) const {
   const HitHeights hits = all_hits(offset, is_of_limb_);
-  const auto nearest = [](const std::vector<double>& heights, double expected) {
-    return *std::min_element(heights.begin(), heights.end(), [&](double a, double b) {
-      return std::abs(a - expected) < std::abs(b - expected);
-    });
+  const auto nearest = [](const std::vector<MetFace>& faces, double expected) {
+    return *std::ranges::min_element(
+        faces, {}, [&](const MetFace& met) { return std::abs(met.height - expected); });
   };
-  const std::vector<double>& candidates = hits.facing.empty() ? hits.averted : hits.facing;
+  const std::vector<MetFace>& candidates = hits.facing.empty() ? hits.averted : hits.facing;
   if (candidates.empty()) return {};
-  const double near = nearest(candidates, neighbour.near);
-  double far = near;
-  if (!hits.averted.empty()) far = std::min(near, nearest(hits.averted, neighbour.far));
+  const MetFace near = nearest(candidates, neighbour.near);
+  double far = near.height;
+  if (!hits.averted.empty()) far = std::min(far, nearest(hits.averted, neighbour.far).height);
   const RayHit hit = hit_at(near, far, hits);
   const bool is_hidden_sheet = hits.facing.empty() && hit.free_before < neighbour.free_before;
   return is_hidden_sheet ? std::optional<RayHit>() : hit;
 }
 
+LimbShares LimbRays::shares_at(const Vec3d& offset, const RayHit& hit) const {
+  std::array<Vec2d, 3> seen;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3d from = limb_.surface.corners(hit.near_face)[k] - middle_ - offset;
+    seen[k] = {dot(from, frame_.across), dot(from, frame_.along)};
+  }
+  const Vec2d ray(0, 0);
+  const double whole = area(seen[0], seen[1], seen[2]);
+  LimbShares shares;
+  for (Index k = 0; k < 3; ++k)
+    shares.add(limb_.bones.shares(limb_.surface.point(3 * hit.near_face + k)),
+               area(ray, seen[(k + 1) % 3], seen[(k + 2) % 3]) / whole);
+  return shares;
+}
+
 bool LimbRays::meets_others(const Vec3d& offset, double low, double high) const {
-  const std::vector<double> others = all_hits(offset, is_of_limb_).others;
-  return std::any_of(others.begin(), others.end(),
-                     [&](double height) { return height > low && height < high; });
+  const std::vector<MetFace> others = all_hits(offset, is_of_limb_).others;
+  return std::ranges::any_of(
+      others, [&](const MetFace& met) { return met.height > low && met.height < high; });
 }
 
 }  // namespace sunder::aim

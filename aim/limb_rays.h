@@ -9,10 +9,17 @@
 
 namespace sunder::aim {
 
+/// A face that a ray meets, and the height of the place.
+struct MetFace {
+  double height = 0;
+  Index face = kNone;
+};
+
 /// The surfaces that a ray from the viewer meets. Heights are towards the viewer, from the plane
 /// of the view through the place that the rays are measured from.
 struct RayHit {
   double near = 0, far = 0;  ///< First and last surface of the limb.
+  Index near_face = kNone;
   // Distances to the next surface that is not this part of the limb, or infinity.
   double free_before = 0;  ///< From `near` towards the viewer.
   double free_below = 0;  ///< From `near` away from the viewer, to one that the limb does not move.
@@ -21,10 +28,11 @@ struct RayHit {
 
 /// Where rays hit one face after the other.
 struct HitHeights {
-  std::vector<double> facing;   ///< Of the limb, towards the viewer.
-  std::vector<double> averted;  ///< Of the limb, away from the viewer.
-  std::vector<double> kin;  ///< Of other surfaces that the limb moves: eyes, teeth, a bent forearm.
-  std::vector<double> others;  ///< Of the rest.
+  std::vector<MetFace> facing;   ///< Of the limb, towards the viewer.
+  std::vector<MetFace> averted;  ///< Of the limb, away from the viewer.
+  std::vector<MetFace>
+      kin;  ///< Of other surfaces that the limb moves: eyes, teeth, a bent forearm.
+  std::vector<MetFace> others;  ///< Of the rest.
 };
 
 /// Rays that look at a limb as the viewer does. Only the surface that is connected to the limb's
@@ -48,6 +56,8 @@ class LimbRays {
   /// chest, it meets the one that continues its neighbour's.
   /// @param offset  in the plane of the view. @return empty where the ray misses the limb.
   [[nodiscard]] std::optional<RayHit> cast(const Vec3d& offset, const RayHit& neighbour) const;
+  /// What moves the place where a ray meets the near surface.
+  [[nodiscard]] LimbShares shares_at(const Vec3d& offset, const RayHit& hit) const;
   /// Whether a ray meets a surface that the limb does not move between two heights.
   [[nodiscard]] bool meets_others(const Vec3d& offset, double low, double high) const;
 
@@ -56,7 +66,7 @@ class LimbRays {
   [[nodiscard]] bool may_belong(Index face, double reach) const;
   /// @param is_limb  per face; the others that the limb moves are kin.
   [[nodiscard]] HitHeights all_hits(const Vec3d& offset, const std::vector<bool>& is_limb) const;
-  [[nodiscard]] RayHit hit_at(double near, double far, const HitHeights& hits) const;
+  [[nodiscard]] RayHit hit_at(const MetFace& near, double far, const HitHeights& hits) const;
 
   const Limb& limb_;
   ViewFrame frame_;

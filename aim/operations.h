@@ -12,9 +12,9 @@ namespace sunder::aim {
                                               const SlashOperation& slash);
 [[nodiscard]] Result<Operation> resolve_sever(const PosedSurface& surface,
                                               const SeverOperation& sever);
-/// Whether a sever takes off what a judge asks for.
-[[nodiscard]] bool severs(const PosedSurface& surface, const SeverOperation& sever,
-                          const SeverJudge& judge);
+/// Why a sever does not take off what a judge asks for; ok if it does.
+[[nodiscard]] Status severs(const PosedSurface& surface, const SeverOperation& sever,
+                            const SeverJudge& judge);
 /// Finds what a sever will take off.
 [[nodiscard]] Result<SeveredPieces> find_severed_pieces(const PosedSurface& surface,
                                                         const SeverOperation& sever);

@@ -72,11 +72,12 @@ struct TurnView {
   }
 };
 
-/// Whether an operation hits its limb; a sever, whether it takes off most of the whole limb.
-bool hits(const aim::PosedSurface& surface, const AimedOperation& operation, bool counts_props) {
+/// Why an operation misses its limb; a sever, why it does not take off most of the whole limb.
+Status miss(const aim::PosedSurface& surface, const AimedOperation& operation, bool counts_props) {
   if (const auto* const sever = std::get_if<SeverOperation>(&operation))
     return aim::severs(surface, *sever, {true, counts_props});
-  return static_cast<bool>(std::visit(Resolve{surface}, operation));
+  const Result<Operation> plain = std::visit(Resolve{surface}, operation);
+  return plain ? Status() : plain.error();
 }
 
 /// The share at which an operation hits, its own or the nearest one.
@@ -86,13 +87,26 @@ std::optional<double> share_that_hits(const aim::PosedSurface& surface, AimedOpe
   for (const bool counts_props : {false, true}) {
     const auto hits_at = [&](double at) {
       place.at = at;
-      return hits(surface, operation, counts_props);
+      return miss(surface, operation, counts_props).is_ok();
     };
     if (hits_at(wanted)) return wanted;
     if (const auto share = aim::nearest_share(wanted, hits_at)) return share;
     if (!std::holds_alternative<SeverOperation>(operation)) return {};
   }
   return {};
+}
+
+/// The failure of an operation that hits at no share of its bone. @param fault  at its own share;
+/// ok for a sever that takes off less than most of the limb there.
+Status no_share(const aim::PosedSurface& surface, const AimedOperation& operation,
+                const Status& fault) {
+  if (!std::holds_alternative<SeverOperation>(operation)) return fault;
+  const Status why = fault ? miss(surface, operation, true) : fault;
+  return Status::failure(why.code(), why.index(),
+                         "%s; no share of the bone was found at which most of the limb comes off "
+                         "alone%s",
+                         std::string(why.text()).c_str(),
+                         fault ? "; give one to sever it there all the same" : "");
 }
 
 }  // namespace
@@ -115,12 +129,7 @@ Result<AimedOperation> at_nearest_share(const TornModel& model, const AimedOpera
     if (place == nullptr || (!here && here.error().code() != StatusCode::not_found))
       return here ? Result<AimedOperation>(moved) : here.error();
     const std::optional<double> share = share_that_hits(*surface, operation);
-    if (!share)
-      return here ? Status::failure(StatusCode::not_found, kNone,
-                                    "'%.60s': no share of the bone was found at which most of the "
-                                    "limb comes off; give one to sever it there all the same",
-                                    place->bone.c_str())
-                  : here.error();
+    if (!share) return no_share(*surface, operation, here ? Status() : here.error());
     place->at = *share;
     return moved;
   });

@@ -118,7 +118,7 @@ Result<AimedSever> aim_sever(const PosedSurface& surface, const SeverOperation& 
   SeverOperation other = sever;
   const auto share = nearest_share(sever.place.at, [&](double at) {
     other.place.at = at;
-    return severs(surface, other, {false, true});
+    return static_cast<bool>(severs(surface, other, {false, true}));
   });
   const Status& fault = aimed.error();
   return Status::failure(fault.code(), fault.index(), "%s%s", std::string(fault.text()).c_str(),
@@ -127,8 +127,9 @@ Result<AimedSever> aim_sever(const PosedSurface& surface, const SeverOperation& 
 
 }  // namespace
 
-bool severs(const PosedSurface& surface, const SeverOperation& sever, const SeverJudge& judge) {
-  return static_cast<bool>(aim_sever(surface, sever, judge));
+Status severs(const PosedSurface& surface, const SeverOperation& sever, const SeverJudge& judge) {
+  const Result<AimedSever> aimed = aim_sever(surface, sever, judge);
+  return aimed ? Status() : aimed.error();
 }
 
 Result<Operation> resolve_sever(const PosedSurface& surface, const SeverOperation& sever) {

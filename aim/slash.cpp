@@ -22,6 +22,8 @@ constexpr double kMostSteps = 128 * kBladesPerWidth;
 /// Near its outline the limb is thin; the blade still passes the near surface by this many widths,
 /// and by the width of the gap, whose sides lie deeper there.
 constexpr double kLeastDepthWidths = 0.02;
+/// What the limb, and the limb with its parent, move of the surface along a stroke, at least.
+constexpr double kLeastOfStroke = 0.3, kLeastOfStrokeWithParent = 0.6;
 
 Status check(const SlashOperation& slash) {
   if (const Status status = check_length(slash.length, field::kLength); !status) return status;
@@ -151,6 +153,29 @@ BladeEnds ends_of(const SeenStroke& seen, std::size_t i, const SlashOperation& s
   return {hit.near + before, std::max(hit.near - metres(*slash.depth, width), deepest)};
 }
 
+/// The mean of what moves the near surface along a stroke.
+LimbShares shares_along(const LimbRays& rays, const SeenStroke& seen) {
+  LimbShares mean;
+  const double count = static_cast<double>(seen.hits.size());
+  for (std::size_t i = 0; i < seen.hits.size(); ++i)
+    mean.add(rays.shares_at(seen.offsets[i], seen.hits[i]), 1 / count);
+  return mean;
+}
+
+/// Refuses a stroke that lies on other limbs, or on hardly any of its own.
+Status check_shares(const Limb& limb, const LimbShares& shares) {
+  if (shares.limb() >= kLeastOfStroke &&
+      shares.limb() + shares.parent() >= kLeastOfStrokeWithParent)
+    return {};
+  return Status::failure(StatusCode::not_found, limb.bones.bone(),
+                         "%s: the limb moves %ld %% of what the stroke would lie on, and with its "
+                         "parent %ld %%; at least %ld and %ld are wanted",
+                         limb.label.c_str(), std::lround(100 * shares.limb()),
+                         std::lround(100 * (shares.limb() + shares.parent())),
+                         std::lround(100 * kLeastOfStroke),
+                         std::lround(100 * kLeastOfStrokeWithParent));
+}
+
 }  // namespace
 
 Result<Operation> resolve_slash(const PosedSurface& surface, const SlashOperation& slash) {
@@ -171,6 +196,7 @@ Result<Operation> resolve_slash(const PosedSurface& surface, const SlashOperatio
     return Status::failure(StatusCode::not_found, limb->bones.bone(),
                            "%s: the limb has no surface there that is seen from this side",
                            limb->label.c_str());
+  if (const Status status = check_shares(*limb, shares_along(rays, seen)); !status) return status;
   if (const Status status = check_sizes(*limb, slash, options, seen, width); !status) return status;
   TearOperation tear;
   tear.pose = slash.pose;

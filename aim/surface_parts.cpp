@@ -2,12 +2,17 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
+#include <tuple>
+#include <utility>
 
 #include "aim/joined_sets.h"
 #include "core/internal/ordered.h"
 
 namespace sunder::aim {
 namespace {
+
+using tear::Surface;
 
 /// A part that holds less of the limb and of other bones than this share of what the limb moves is
 /// a scarf between them, not their body; unless it is a large part of the limb and shares so much
@@ -20,6 +25,52 @@ constexpr double kLeastOfLimb = 0.1;
 /// The limb alone moves a part if it moves at least so much of it.
 constexpr double kLeastOfProp = 0.9;
 
+/// Where a point lies in bind space, and its side of an older tear, whose lips are apart. In a
+/// pose, points with other weights may leave the place.
+using Place = std::tuple<float, float, float, Index>;
+
+/// Per point, the first point in the same place.
+std::vector<Index> places_of(const PosedSurface& surface) {
+  const auto place = [&](Index point) {
+    const auto [mesh, vertex] = surface.vertex(point);
+    if (mesh == kNone) return Place{0, 0, 0, kNone};
+    const Vec3f& at = surface.character().meshes[mesh].positions[vertex];
+    return Place{at.x(), at.y(), at.z(), surface.surface().side(point)};
+  };
+  std::vector<Index> points(surface.surface().point_count()), places(points.size());
+  std::iota(points.begin(), points.end(), Index{0});
+  std::ranges::sort(points, [&](Index a, Index b) {
+    return std::make_pair(place(a), a) < std::make_pair(place(b), b);
+  });
+  for (std::size_t i = 0, end = 0; i < points.size(); i = end) {
+    for (end = i + 1; end < points.size() && place(points[end]) == place(points[i]);) ++end;
+    for (std::size_t k = i; k < end; ++k) places[points[k]] = points[i];
+  }
+  return places;
+}
+
+/// Pairs of half-edges in the same place, each with the next one: a fin or an ear on an edge of the
+/// body, which has more than two faces there.
+std::vector<std::array<Index, 2>> coincident_edges(const PosedSurface& surface,
+                                                   const std::vector<Index>& places) {
+  std::vector<bool> is_shared(places.size(), false);
+  for (Index point = 0; point < places.size(); ++point)
+    if (places[point] != point) is_shared[places[point]] = true;
+  std::vector<std::array<Index, 3>> edges;  // two places, ascending, and the half-edge
+  for (Index h = 0; h < 3 * surface.face_count(); ++h) {
+    if (!surface.is_live(h / 3)) continue;
+    const Index from = places[surface.point(h)], to = places[surface.point(Surface::next(h))];
+    if (!is_shared[from] || !is_shared[to] || from == to) continue;
+    edges.push_back({std::min(from, to), std::max(from, to), h});
+  }
+  std::ranges::sort(edges);
+  std::vector<std::array<Index, 2>> pairs;
+  for (std::size_t i = 1; i < edges.size(); ++i)
+    if (edges[i][0] == edges[i - 1][0] && edges[i][1] == edges[i - 1][1])
+      pairs.push_back({edges[i - 1][2], edges[i][2]});
+  return pairs;
+}
+
 double area_of(const PosedSurface& surface, Index face) {
   const auto [a, b, c] = surface.corners(face);
   return 0.5 * norm((b - a).cross(c - a));
@@ -27,9 +78,10 @@ double area_of(const PosedSurface& surface, Index face) {
 
 }  // namespace
 
-SurfaceParts::SurfaceParts(const Limb& limb) {
+SurfaceParts::SurfaceParts(const Limb& limb) : place_of_point_(places_of(limb.surface)) {
   find_parts(limb.surface);
   measure(limb);
+  measure_points(limb.surface);
   choose_body();
 }
 
@@ -39,12 +91,13 @@ bool SurfaceParts::is_of_prop(Index face) const {
 }
 
 void SurfaceParts::find_parts(const PosedSurface& surface) {
-  const tear::Surface& of = surface.surface();
+  const Surface& of = surface.surface();
   const Index count = surface.face_count();
   JoinedSets joined(count);
   for (Index h = 0; h < 3 * count; ++h)
     if (of.twin[h] != kNone) joined.join(h / 3, of.twin[h] / 3);
   for (const auto& [a, b] : of.cracks) joined.join(a / 3, b / 3);
+  for (const auto& [a, b] : coincident_edges(surface, place_of_point_)) joined.join(a / 3, b / 3);
   // What a cut has separated is one part: the pieces of a triangle have the same origin.
   for (Index face = 0; face < count; ++face) {
     const tear::TriangleRef ref = of.triangle(face);
@@ -79,6 +132,30 @@ void SurfaceParts::measure(const Limb& limb) {
     part.size += sizes_[face];
     part.moved += moved_sizes_[face];
   }
+}
+
+void SurfaceParts::measure_points(const PosedSurface& surface) {
+  const Index count = surface.surface().point_count();
+  std::vector<bool> is_live(count, false);
+  std::vector<double> points_there(count, 0.0);
+  point_sizes_.assign(count, 0.0);
+  double area = 0, places = 0;
+  for (Index face = 0; face < surface.face_count(); ++face) {
+    if (!surface.is_live(face)) continue;
+    const double of_face = area_of(surface, face);
+    area += of_face;
+    for (Index corner = 3 * face; corner < 3 * face + 3; ++corner) {
+      const Index point = surface.point(corner);
+      point_sizes_[point] += of_face / 3;
+      if (is_live[point]) continue;
+      is_live[point] = true;
+      places += points_there[place_of(point)]++ > 0 ? 0 : 1;
+    }
+  }
+  for (Index point = 0; point < count; ++point)
+    if (is_live[point])
+      point_sizes_[point] = 0.5 / (places * points_there[place_of(point)]) +
+                            (area > 0 ? 0.5 * point_sizes_[point] / area : 0.0);
 }
 
 void SurfaceParts::choose_body() {

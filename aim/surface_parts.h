@@ -23,7 +23,12 @@ class SurfaceParts {
   /// so that neither a large shield nor a finely modelled clasp counts for all. 0 if it is retired
   /// or degenerate.
   [[nodiscard]] double size(Index face) const { return sizes_[face]; }
-  /// That size times the share of the face that the limb moves.
+  /// How much of the surface a point is: the mean of its share of the places of live faces, which
+  /// points in one place divide, and of the area, a third of each face at it.
+  [[nodiscard]] double size_of_point(Index point) const { return point_sizes_[point]; }
+  /// The first point in the same place.
+  [[nodiscard]] Index place_of(Index point) const { return place_of_point_[point]; }
+  /// The size of the face times the share of it that the limb moves.
   [[nodiscard]] double moved_size(Index face) const { return moved_sizes_[face]; }
 
  private:
@@ -33,10 +38,13 @@ class SurfaceParts {
   };
   void find_parts(const PosedSurface& surface);
   void measure(const Limb& limb);
+  void measure_points(const PosedSurface& surface);
   void choose_body();
 
   std::vector<Index> part_of_face_;
   std::vector<double> sizes_, moved_sizes_;  ///< Per face.
+  std::vector<double> point_sizes_;
+  std::vector<Index> place_of_point_;
   std::vector<Part> parts_;
 };
 

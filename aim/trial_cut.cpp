@@ -22,8 +22,10 @@ constexpr double kLeastMoved = 0.5, kMostOfOthers = 0.25;
 /// parts count too: the shoe on a leg whose foot nobody has modelled.
 constexpr double kLeastBody = 0.05;
 /// A limb takes along so much of what its parent moves only if that is less than this share of what
-/// the limb moves itself.
-constexpr double kMostOfParent = 0.75, kLeastOfParent = 0.1;
+/// the limb moves itself …
+constexpr double kMostTaken = 0.75, kLeastOfParent = 0.1;
+/// … and of what another limb moves only if that is less than this share of the model.
+constexpr double kLeastOfOther = 0.01;
 
 int percent(double part, double whole) { return static_cast<int>(std::lround(100 * part / whole)); }
 
@@ -126,6 +128,29 @@ TrialCut::TrialCut(const Limb& limb, const SurfaceParts& parts, const LimbPlane&
   piece_of_face_.assign(piece_of.begin(), piece_of.begin() + limb.surface.face_count());
   for (Index face = 0; face < limb.surface.face_count(); ++face)
     if (limb.surface.is_live(face)) add_face(face, halves, parts, piece_of);
+  place_points(halves, heights, piece_of);
+}
+
+void TrialCut::place_points(const Halves& halves, const std::vector<double>& heights,
+                            const std::vector<Index>& piece_of) {
+  piece_of_point_.assign(heights.size(), kNone);
+  is_point_of_body_.assign(heights.size(), false);
+  for (Index corner = 0; corner < 3 * limb_.surface.face_count(); ++corner) {
+    const Index face = corner / 3, point = limb_.surface.point(corner);
+    if (!limb_.surface.is_live(face) || piece_of_point_[point] != kNone) continue;
+    piece_of_point_[point] = piece_of[halves.node(face, heights[point] >= 0)];
+    is_point_of_body_[point] = parts_.is_of_body(face);
+  }
+}
+
+std::vector<bool> TrialCut::points_off(const std::vector<bool>& comes_off) const {
+  std::vector<bool> stays(piece_of_point_.size(), false), is_off(piece_of_point_.size(), false);
+  for (Index point = 0; point < piece_of_point_.size(); ++point)
+    if (piece_of_point_[point] != kNone && !comes_off[piece_of_point_[point]])
+      stays[parts_.place_of(point)] = true;
+  for (Index point = 0; point < piece_of_point_.size(); ++point)
+    is_off[point] = piece_of_point_[point] != kNone && !stays[parts_.place_of(point)];
+  return is_off;
 }
 
 void TrialCut::add_face(Index face, const Halves& halves, const SurfaceParts& parts,
@@ -156,6 +181,7 @@ void TrialCut::add_face(Index face, const Halves& halves, const SurfaceParts& pa
     far.face = face;
   }
   beyond_of_all_ += beyond * parts.moved_size(face);
+  whole_of_all_ += parts.moved_size(face);
   if (!parts.is_of_body(face)) return;
   beyond_ += beyond * parts.moved_size(face);
   whole_ += parts.moved_size(face);
@@ -168,11 +194,7 @@ bool TrialCut::is_prop(const Piece& piece) const {
 
 std::string TrialCut::fault(const SeverJudge& judge) const {
   Piece off;  // all that comes off at the sections
-  double held = 0, held_of_all = 0;
   for (const Piece& piece : pieces_) {
-    if (!is_severed(piece) && !(judge.counts_props && is_prop(piece))) continue;
-    held += piece.body_moved;
-    held_of_all += piece.moved;
     if (!is_severed(piece)) continue;
     off.size += piece.size;
     off.moved += piece.moved;
@@ -180,32 +202,90 @@ std::string TrialCut::fault(const SeverJudge& judge) const {
   }
   if (!(off.size > 0))
     return "a cut there takes nothing off, because the surface goes on beside it";
-  const bool is_of_body = beyond_ >= kLeastBody * beyond_of_all_;
   if (off.moved < kLeastMoved * off.size || off.others > kMostOfOthers * off.size)
     return "other bones move " + std::to_string(percent(off.size - off.moved, off.size)) +
            " % of what would come off there";
-  if (const std::string text = taken_along(); !text.empty()) return text;
-  const double of = judge.is_whole ? whole_ : is_of_body ? beyond_ : beyond_of_all_;
-  const double has = judge.is_whole || is_of_body ? held : held_of_all;
-  if (has >= kMost * of) return {};
-  return "what would come off there holds " + std::to_string(percent(has, of)) +
-         " % of what the bones move on the body";
+  if (std::string text = taken_along(judge); !text.empty()) return text;
+  return missing(judge);
 }
 
-std::string TrialCut::taken_along() const {
-  const Index parent = limb_.bones.parent();
-  if (parent == kNone) return {};
-  double moved = 0, whole = 0, taken = 0;
+std::string TrialCut::missing(const SeverJudge& judge) const {
+  double held = 0, held_of_all = 0, all_with_props = 0;
+  std::vector<bool> comes_off;
+  for (const Piece& piece : pieces_) {
+    // A part that meets the body at an edge is of it, and goes along as a prop does.
+    const bool is_counted = judge.counts_props || (judge.is_whole && piece.body_moved > 0);
+    comes_off.push_back(is_severed(piece) || (is_counted && is_prop(piece)));
+    if (comes_off.back()) held += piece.body_moved;
+    if (comes_off.back()) held_of_all += piece.moved;
+    if (is_severed(piece) || is_prop(piece)) all_with_props += piece.moved;
+  }
+  const auto check = [](double has, double of, const char* where) -> std::string {
+    if (has >= kMost * of) return {};
+    return "what would come off there holds " + std::to_string(percent(has, of)) +
+           " % of what the bones move" + where;
+  };
+  constexpr const char* kOnBody = " on the body";
+  const bool is_of_body = beyond_ >= kLeastBody * beyond_of_all_;
+  if (!judge.is_whole)
+    return is_of_body ? check(held, beyond_, kOnBody) : check(held_of_all, beyond_of_all_, kOnBody);
+  if (std::string text = check(held, whole_, kOnBody); !text.empty()) return text;
+  // Where triangles are large, a cut may halve them while most of the weights stay before it.
+  double held_of_points = 0, whole_of_points = 0;
+  const std::vector<bool> is_off = points_off(comes_off);
+  for (Index point = 0; point < is_off.size(); ++point) {
+    if (!is_point_of_body_[point]) continue;
+    const double moved = parts_.size_of_point(point) * limb_.bones.shares(point).limb();
+    whole_of_points += moved;
+    if (is_off[point]) held_of_points += moved;
+  }
+  if (std::string text = check(held_of_points, whole_of_points, kOnBody); !text.empty())
+    return text;
+  return check(all_with_props, whole_of_all_, "");
+}
+
+std::string TrialCut::taken_along(const SeverJudge& judge) const {
+  const std::vector<Bone>& bones = limb_.surface.character().skeleton.bones;
+  struct Sums {
+    std::vector<double> whole, taken;
+  };
+  Sums by_faces{std::vector<double>(bones.size(), 0.0), std::vector<double>(bones.size(), 0.0)};
+  Sums by_points = by_faces;
+  const auto add = [&](Sums& sums, Index point, double size, double taken) {
+    for_each_influence(limb_.surface, point, [&](Index bone, double weight) {
+      limb_.bones.add_to_others(sums.whole, bone, size * weight);
+      limb_.bones.add_to_others(sums.taken, bone, taken * size * weight);
+    });
+  };
+  std::vector<bool> comes_off;
+  for (const Piece& piece : pieces_)
+    comes_off.push_back(is_severed(piece) || (judge.is_whole && is_prop(piece)));
+  double moved = 0;
   for (Index face = 0; face < piece_of_face_.size(); ++face) {
     if (!limb_.surface.is_live(face)) continue;
-    const double of_parent = parts_.size(face) * limb_.bones.shares_of_face(face).parent();
-    whole += of_parent;
     moved += parts_.moved_size(face);
-    if (is_severed(pieces_[piece_of_face_[face]])) taken += beyond_of_face_[face] * of_parent;
+    const double taken = comes_off[piece_of_face_[face]] ? beyond_of_face_[face] : 0.0;
+    for (Index corner = 3 * face; corner < 3 * face + 3; ++corner)
+      add(by_faces, limb_.surface.point(corner), parts_.size(face) / 3, taken);
   }
-  if (whole < kLeastOfParent * moved || taken < kMostOfParent * whole) return {};
-  return "a cut there takes along " + std::to_string(percent(taken, whole)) + " % of what '" +
-         limb_.surface.character().skeleton.bones[parent].name.substr(0, 60) + "' moves";
+  const std::vector<bool> is_off = points_off(comes_off);
+  for (Index point = 0; point < is_off.size(); ++point)
+    if (piece_of_point_[point] != kNone)
+      add(by_points, point, parts_.size_of_point(point), is_off[point] ? 1.0 : 0.0);
+  const auto share_of = [](const Sums& sums, Index bone) {
+    return sums.whole[bone] > 0 ? sums.taken[bone] / sums.whole[bone] : 0.0;
+  };
+  const double most = judge.is_whole ? kMost : kMostTaken;
+  for (Index bone = 0; bone < bones.size(); ++bone) {
+    const bool is_parent = bone == limb_.bones.parent();
+    double share = share_of(by_faces, bone);
+    if (judge.is_whole) share = std::max(share, share_of(by_points, bone));
+    if (by_faces.whole[bone] < (is_parent ? kLeastOfParent * moved : kLeastOfOther) || share < most)
+      continue;
+    return "a cut there takes along " + std::to_string(percent(share, 1.0)) + " % of what '" +
+           bones[bone].name.substr(0, 60) + "' moves";
+  }
+  return {};
 }
 
 PiecePlace TrialCut::place_on(const Piece& piece) const {

@@ -48,24 +48,35 @@ class TrialCut {
     double size = 0, moved = 0;  ///< SurfaceParts::size(), and what the limb moves of it.
     double going = 0;   ///< What the bones below move of it, and the bone itself beyond the plane.
     double others = 0;  ///< What bones move of it that are neither of the limb nor its parent.
-    double body_moved = 0;  ///< What the limb moves of it on the body.
+    double body_moved = 0;    ///< What the limb moves of it on the body …
+    double points_moved = 0;  ///< … and the same of its points alone.
   };
   class Halves;
   void add_face(Index face, const Halves& halves, const SurfaceParts& parts,
                 const std::vector<Index>& piece_of);
+  /// Finds the pieces that the points are of.
+  void place_points(const Halves& halves, const std::vector<double>& heights,
+                    const std::vector<Index>& piece_of);
   [[nodiscard]] bool is_severed(const Piece& piece) const { return piece.is_far && !piece.is_near; }
   [[nodiscard]] bool is_prop(const Piece& piece) const;
   [[nodiscard]] PiecePlace place_on(const Piece& piece) const;
-  /// That most of what the parent moves would come off too; empty if it stays.
-  [[nodiscard]] std::string taken_along() const;
+  /// Per point, whether it comes off with all that are in its place. @param comes_off  per piece.
+  [[nodiscard]] std::vector<bool> points_off(const std::vector<bool>& comes_off) const;
+  /// That what comes off holds less than most of what the limb moves; empty if it holds that.
+  [[nodiscard]] std::string missing(const SeverJudge& judge) const;
+  /// That most of what the parent or another limb moves would come off too; empty if they stay.
+  [[nodiscard]] std::string taken_along(const SeverJudge& judge) const;
 
   const Limb& limb_;
   const SurfaceParts& parts_;
   std::vector<Piece> pieces_;
   std::vector<Index> piece_of_face_;    ///< Of a crossed face, of its half beyond the plane.
   std::vector<double> beyond_of_face_;  ///< The share of a face that is of that piece.
+  std::vector<Index> piece_of_point_;   ///< kNone for a point without live faces.
+  std::vector<bool> is_point_of_body_;
   double beyond_ = 0, whole_ = 0;  ///< What the limb moves on the body: beyond the plane, and all.
   double beyond_of_all_ = 0;       ///< What it moves beyond the plane on any part.
+  double whole_of_all_ = 0;        ///< What it moves on all parts.
 };
 
 }  // namespace sunder::aim

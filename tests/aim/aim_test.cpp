@@ -219,6 +219,26 @@ TEST(Slash, opens_the_outer_surface_on_the_side_that_is_seen) {
     }
 }
 
+/// The front of a shin moves with the thigh for most of its length.
+TEST(Slash, that_would_lie_on_other_limbs_goes_to_another_share) {
+  Character character = test::make_tube(60, 16, 3);
+  Mesh& mesh = character.meshes[0];
+  mesh.weights = SkinWeights();
+  for (const Vec3f& at : mesh.positions) {
+    const bool is_front = at.z() > -0.1f && at.y() > 0.97f && at.y() < 1.7f;
+    const std::uint32_t slot = at.y() > 1.97f ? 2 : at.y() > 0.97f ? 1 : 0;
+    const std::array influences = {Influence{slot, is_front ? 0.25f : 1.0f}, Influence{0, 0.75f}};
+    mesh.weights.append({influences.data(), is_front ? 2u : 1u});
+  }
+  const TornModel model = make_model(std::move(character));
+  const SlashOperation slash = slash_at("bone1", 0.5);
+  EXPECT_THAT(std::string(failure_of(model, slash).text()),
+              testing::HasSubstr("the limb moves 25 % of what the stroke would lie on"));
+  const auto moved = at_nearest_share(model, slash);
+  ASSERT_TRUE(moved) << moved.error().text();
+  EXPECT_GE(std::get<SlashOperation>(*moved).place.at, 0.65);
+}
+
 TEST(Slash, from_the_left_comes_between_club_and_arm) {
   TornModel model = make_model(make_armed_arm());
   SlashOperation slash = slash_at("ForeArm", 0.5);

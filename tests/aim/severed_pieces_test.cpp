@@ -5,6 +5,7 @@
 #include <sunder/tear/torn_model.h>
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -316,6 +317,146 @@ TEST(SeveredPieces, a_limb_is_severed_again_beyond_and_before_an_earlier_cut) {
     ASSERT_TRUE(second) << second.error().text();
     EXPECT_EQ(apply_operation(model, *second)->pieces.size(), 2u);
   }
+}
+
+/// Adds a bone that begins at a height, with a slot of the same number.
+std::uint32_t add_bone(Character& character, const std::string& name, Index parent, float y) {
+  const auto bone = static_cast<std::uint32_t>(character.skeleton.bones.size());
+  Bone added;
+  added.name = name;
+  character.skeleton.bones.push_back(added);
+  character.skins[0].bones.push_back(bone);
+  character.skins[0].bone_from_bind.emplace_back();
+  place_root(character, bone, y);
+  if (parent == kNone) return bone;
+  character.skeleton.bones[bone].parent = parent;
+  float above = 0;
+  for (Index i = parent; i != kNone; i = character.skeleton.bones[i].parent)
+    above += character.skeleton.bones[i].rest.translation.y();
+  character.skeleton.bones[bone].rest.translation.y() -= above;
+  return bone;
+}
+
+/// Weights by a function of the place, one slot per vertex.
+template <class SlotAt>
+void weigh_by_place(Mesh& mesh, SlotAt slot_at) {
+  mesh.weights = SkinWeights();
+  for (const Vec3f& position : mesh.positions) {
+    const Influence whole{slot_at(position), 1.0f};
+    mesh.weights.append({&whole, 1});
+  }
+}
+
+std::string refusal_of(const TornModel& model, const std::string& bone) {
+  const auto sever = at_nearest_share(model, sever_of(bone, 0));
+  EXPECT_FALSE(sever);
+  return sever ? "" : std::string(sever.error().text());
+}
+
+/// A thumb that the skeleton hangs on the forearm lies on the hand, and beside the fingers.
+TEST(SeveredPieces, a_thumb_that_hangs_on_the_forearm_goes_with_the_hand_and_not_with_the_fingers) {
+  Character character = test::make_tube(60, 16, 3);
+  character.clips.clear();
+  const std::uint32_t fingers = add_bone(character, "Fingers", kHand, 2.2f),
+                      thumb = add_bone(character, "Thumb", 1, 2.1f);
+  weigh_by_place(character.meshes[0], [&](const Vec3f& at) {
+    if (at.x() > 0.3f && at.y() > 2.12f && at.y() < 2.52f) return thumb;
+    return at.y() > 2.17f ? fingers : at.y() > 1.97f ? kHand : at.y() > 1 ? 1u : 0u;
+  });
+  for (const std::string bone : {"bone2", "Fingers"}) {
+    SCOPED_TRACE(bone);
+    TornModel model = make_model(Character(character));
+    const double before = area_left(model, 0, thumb), limb = area_left(model, 0, fingers);
+    EXPECT_EQ(sever_somewhere(model, bone), 1u);
+    EXPECT_LT(area_left(model, 0, fingers), 0.5 * limb);
+    if (bone == "Fingers")
+      EXPECT_GT(area_left(model, 0, thumb), 0.5 * before);
+    else
+      EXPECT_EQ(area_left(model, 0, thumb), 0.0);
+  }
+}
+
+/// The right half of a fish's front is its neck, the left half its back: neither is a part of the
+/// other, although no bone of this flat list adjoins the neck as much as the back does.
+TEST(SeveredPieces, what_adjoins_the_body_too_is_no_part_of_the_limb) {
+  Character character = test::make_tube(60, 16, 3);
+  character.clips.clear();
+  place_root(character, 0, 0);
+  place_root(character, 1, 1.5f);
+  place_root(character, kHand, 2.4f);
+  const std::uint32_t fin = add_bone(character, "fin", kNone, 1.6f);
+  weigh_by_place(character.meshes[0], [&](const Vec3f& at) {
+    if (at.y() < 1.5f) return 0u;
+    return at.x() < 0 ? 1u : at.y() < 2.4f ? fin : kHand;
+  });
+  const TornModel model = make_model(std::move(character));
+  EXPECT_THAT(refusal_of(model, "bone1"), testing::HasSubstr("moved by 33 % 'fin'"));
+}
+
+/// A thumb's breadth beyond the last ring a spike has one vertex, with a quarter of the weights.
+TEST(SeveredPieces, where_triangles_are_large_what_comes_off_holds_most_of_the_vertices_weights) {
+  Character character = test::make_tube(3, 8, 3);
+  character.rest_morph_weights.clear();
+  character.meshes[0].morph_targets.clear();
+  character.clips.clear();
+  Mesh& mesh = character.meshes[0];
+  mesh.weights = SkinWeights();
+  for (Vec3f& position : mesh.positions) {
+    if (position.y() > 2.9f) position = Vec3f(0, 3, 0);
+    const std::array halves = {Influence{kHand, 0.5f}, Influence{1, 0.5f}};
+    const Influence whole{position.y() > 2.9f ? kHand : position.y() > 0.9f ? 1u : 0u, 1.0f};
+    if (position.y() > 1.9f && position.y() < 2.1f)
+      mesh.weights.append(halves);
+    else
+      mesh.weights.append({&whole, 1});
+  }
+  character.skeleton.bones[kHand].rest.translation = Vec3f(0, 1.02f, 0);
+  character.skins[0].bone_from_bind[kHand].translation() = Vec3f(0, -2.02f, 0);
+  const TornModel model = make_model(std::move(character));
+  EXPECT_TRUE(resolve(model, sever_of("bone2", 0))) << "with a share it may take less";
+  EXPECT_THAT(refusal_of(model, "bone2"), testing::HasSubstr("of what the bones move on the body"));
+}
+
+/// A fin stands on an edge of the body, where its bone moves some of the body too.
+TEST(SeveredPieces, a_part_that_stands_on_an_edge_of_the_body_is_of_it) {
+  Character character = test::make_tube(30, 16, 3);
+  character.rest_morph_weights.clear();
+  character.meshes[0].morph_targets.clear();
+  character.clips.clear();
+  const Mesh tube = character.meshes[0];
+  const std::uint32_t fin = add_bone(character, "fin", 1, 1.5f);
+  character.skeleton.bones[fin].rest.translation.x() = 0.4f;
+  character.skins[0].bone_from_bind[fin].translation().x() = -0.4f;
+  weigh_by_place(character.meshes[0], [&](const Vec3f& at) {
+    return at.x() > 0.4f && std::abs(at.y() - 1.5f) < 0.15f ? fin : at.y() > 1 ? 1u : 0u;
+  });
+  add_prop(character, tube, "fin", {1, 1, 1}, {0, 0, 0}, fin);
+  Mesh& mesh = character.meshes[1];
+  mesh.first_morph_weight = 0;
+  character.rest_morph_weights.clear();
+  for (Vec3f& at : mesh.positions) {
+    const bool is_foot = at.y() == 0 && at.x() > 0.4f && at.z() <= 0;  // two neighbours at its rim
+    at = is_foot ? Vec3f(0.5f, at.z() < 0 ? 1.6f : 1.5f, 0)
+                 : Vec3f(0.6f + 0.5f * at.y(), 1.5f + 0.4f * at.x(), 0.1f * at.z());
+  }
+  TornModel model = make_model(std::move(character));
+  const double before = area_left(model, 1, fin);
+  EXPECT_EQ(sever_somewhere(model, "fin"), 1u);
+  EXPECT_LT(area_left(model, 1, fin), 0.5 * before);
+}
+
+/// A helper bone moves a ring round the neck; the head behind it hangs on the neck.
+TEST(SeveredPieces, a_larger_limb_is_no_part_of_a_bone_that_it_adjoins) {
+  Character character = test::make_tube(60, 16, 3);
+  character.clips.clear();
+  const std::uint32_t helper = add_bone(character, "helper", 0, 1.8f);
+  weigh_by_place(character.meshes[0], [&](const Vec3f& at) {
+    if (at.y() > 1.97f) return kHand;
+    const bool is_of_helper = at.y() > 1.77f && at.x() < 0.49f;  // beside it, neck and head adjoin
+    return is_of_helper ? helper : at.y() > 0.97f ? 1u : 0u;
+  });
+  const TornModel model = make_model(std::move(character));
+  EXPECT_FALSE(refusal_of(model, "helper").empty());
 }
 
 TEST(NearestShare, moves_only_what_cannot_be_hit) {

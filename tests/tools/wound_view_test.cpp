@@ -49,7 +49,7 @@ TEST(WoundView, the_preferred_view_is_kept_while_the_wound_is_seen) {
 }
 
 TEST(WoundView, turns_to_a_wound_on_the_other_side) {
-  for (const Vec3f& side : {Vec3f(0, 0, -1), Vec3f(-1, 0, 0), Vec3f(0, 1, 0)}) {
+  for (const Vec3f& side : {Vec3f(0, 0, -1), Vec3f(-1, 0, 0), Vec3f(0, 1, 0), Vec3f(0, -1, 0)}) {
     const ViewFrame frame = see_wound(wounded_cube(side), view_from({0, -0.2, 1}));
     EXPECT_GT(frame.towards_eye.dot(side.cast<double>()), 0.5);
   }

@@ -74,7 +74,7 @@ ViewFrame see_wound(const RenderScene& scene, const ViewFrame& preferred) {
   std::vector<View> views;
   double most = visibility.from(preferred.towards_eye);
   const double before = most;
-  for (const double elevation : {kLevelElevation, 0.45, 0.9, -0.25})
+  for (const double elevation : {kLevelElevation, 0.45, 0.9, -0.25, -0.9})
     for (int i = 0; i < 16; ++i) {
       const double angle = std::numbers::pi * i / 8;
       const ViewFrame frame = view_from({std::sin(angle), elevation, std::cos(angle)});

@@ -6,7 +6,7 @@
 namespace sunder::tools {
 
 /// The view from which a wound is seen: the preferred one if more than half as much flesh is
-/// visible there as from anywhere, else one nearby that shows much. Tries 64 views around the scene
+/// visible there as from anywhere, else one nearby that shows much. Tries 80 views around the scene
 /// and finds by rays what hides the flesh, a robot too. O(flesh triangles), 2,000 at most.
 [[nodiscard]] ViewFrame see_wound(const RenderScene& scene, const ViewFrame& preferred);
 
