@@ -41,14 +41,17 @@ class MembershipList {
     chunks_.clear();
   }
   /// @param room  for so many more memberships of the same point, see replace().
+  /// @throws std::bad_alloc, with nothing changed
   void append(std::span<const ParticleMembership> more, std::size_t room = 0) {
     const std::size_t count = more.size() + room;
     if (chunks_.empty() || chunks_.back().memberships.size() + count > kChunk) {
-      const bool is_first = chunks_.empty();  // of a small tear, perhaps
-      chunks_.push_back({size_, {}});
-      if (!is_first) chunks_.back().memberships.reserve(std::max(kChunk, count));
+      Chunk chunk{size_, {}};
+      if (!chunks_.empty()) chunk.memberships.reserve(std::max(kChunk, count));
+      chunks_.push_back(std::move(chunk));  // the first one is that of a small tear, perhaps
     }
     std::vector<ParticleMembership>& last = chunks_.back().memberships;
+    if (last.capacity() < last.size() + count)
+      last.reserve(std::max(2 * last.capacity(), last.size() + count));
     last.insert(last.end(), more.begin(), more.end());
     last.insert(last.end(), room, kRoom);
     size_ += count;

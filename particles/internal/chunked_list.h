@@ -2,14 +2,14 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <iterator>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace sunder::particles {
 
-/// A growing list of many entries, which never move: to copy a vector of a megabyte because it
-/// grows takes a frame longer than what is appended in many.
+/// A growing list of many entries, which do not move but for the first ones: to copy a vector of a
+/// megabyte because it grows takes a frame longer than what is appended in many.
 template <class T>
 class ChunkedList {
  public:
@@ -18,9 +18,9 @@ class ChunkedList {
   [[nodiscard]] const T& operator[](std::size_t i) const { return chunks_[i / kChunk][i % kChunk]; }
   void push_back(const T& value) {
     if (size_ % kChunk == 0) {
-      // A short list, as of a small tear, takes little memory.
-      if (size_ > 0) chunks_.emplace_back().reserve(kChunk);
-      if (size_ == 0) chunks_.resize(1);
+      std::vector<T> chunk;
+      if (size_ > 0) chunk.reserve(kChunk);  // the first one is that of a small tear, perhaps
+      chunks_.push_back(std::move(chunk));
     }
     chunks_.back().push_back(value);
     ++size_;

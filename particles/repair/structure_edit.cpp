@@ -196,8 +196,9 @@ void StructureEdit::write_memberships(Index point, std::span<const ParticleMembe
     slab.count = static_cast<Index>(now.size());
     return;
   }
-  slab = {static_cast<Index>(points.memberships.size()), static_cast<Index>(now.size())};
+  const auto first = static_cast<Index>(points.memberships.size());
   points.memberships.append(now, is_of_change ? now.size() / 2 + kMoreMemberships : 0);
+  slab = {first, static_cast<Index>(now.size())};
 }
 
 void StructureEdit::finish(const RewrittenFaces& rewritten) {
