@@ -71,10 +71,13 @@ Status CharacterInstance::State::require_drawn() {
     parts->palettes.push_back(std::move(*made));
   }
   parts->meshes.reserve(source.meshes.size());
-  const Index room = capacity.is_fixed() ? capacity.vertices : 0;
-  for (Index m = 0; m < source.meshes.size(); ++m)
-    parts->meshes.emplace_back(shared().meshes[m], source.meshes[m].vertex_count(), room,
-                               shared().options.unit_length);
+  for (Index m = 0; m < source.meshes.size(); ++m) {
+    const Index count = source.meshes[m].vertex_count();
+    const Index room = capacity.is_fixed() ? capacity.vertices
+                       : torn              ? scene::InstanceMesh::room_for_tears(count)
+                                           : 0;
+    parts->meshes.emplace_back(shared().meshes[m], count, room, shared().options.unit_length);
+  }
   if (torn)
     for (Index m = 0; m < parts->meshes.size(); ++m)
       parts->meshes[m].note_all(source.meshes[m], torn->model.character().meshes[m], epoch + 1);

@@ -43,18 +43,20 @@ void expect(const PointTable& points, Index point) {
 
 void exchange_changed(Structure& structure, Change& change, bool is_done) {
   PointTable& points = structure.points;
-  const std::vector<Change::OfPoint>& changed = change.changed_points;
-  exchange_in_turn(change.changed_points, is_done, [&](Change::OfPoint& of) {
+  const std::size_t count = change.changed_points.size();
+  const auto in_turn = [&](std::size_t i) -> Change::OfPoint& {
+    return change.changed_points[is_done ? count - 1 - i : i];
+  };
+  for (std::size_t i = 0; i < count; ++i) {
     // The entries that come next are read ahead, because their points are anywhere in memory.
-    constexpr std::ptrdiff_t kAhead = 12;
-    const std::ptrdiff_t next = &of - changed.data() + (is_done ? -kAhead : kAhead);
-    if (next >= 0 && next < std::ssize(changed))
-      expect(points, changed[static_cast<std::size_t>(next)].point);
+    constexpr std::size_t kAhead = 12;
+    if (i + kAhead < count) expect(points, in_turn(i + kAhead).point);
+    Change::OfPoint& of = in_turn(i);
     std::swap(points.slabs[of.point], of.slab);
     std::swap(points.influences[of.point], of.influences);
     std::swap(points.owners[of.point], of.owner);
     std::swap(points.lip_points[of.point], of.lip);
-  });
+  }
   exchange_in_turn(change.changed_particles, is_done, [&](std::pair<Index, Particle>& of) {
     std::swap(structure.particles[of.first], of.second);
     structure.particles[of.first].revision = structure.revision + 1;
@@ -93,7 +95,8 @@ void exchange(Structure& structure, Change& change) {
     structure.particles[p].revision = structure.revision + 1;
   structure.points.ends = is_done ? change.ends_before : change.ends_after;
   ++structure.revision;
-  for (const Change::OfPoint& of : change.changed_points) structure.dirty.push_back(of.point);
+  change.changed_points.for_each(
+      [&](const Change::OfPoint& of) { structure.dirty.push_back(of.point); });
   for (Index point = change.points; point < structure.points.count(); ++point)
     structure.dirty.push_back(point);
 }

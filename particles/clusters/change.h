@@ -5,6 +5,7 @@
 
 #include "particles/clusters/particle.h"
 #include "particles/clusters/point_table.h"
+#include "particles/internal/chunked_list.h"
 
 namespace sunder::particles {
 
@@ -42,7 +43,7 @@ struct Change {
   };
   std::optional<std::vector<OfGradients>> changed_gradients;  ///< Empty: they were not wanted.
 
-  std::vector<OfPoint> changed_points;
+  ChunkedList<OfPoint> changed_points;
   std::vector<std::pair<Index, Particle>> changed_particles;
   std::vector<OfVertex> changed_vertices;
   std::vector<std::pair<Index, LipEdge>> changed_lips;

@@ -57,11 +57,12 @@ class UndoneStructure {
       count(slabs_[point], -1);
     slabs_.resize(change.points);
     lips_.resize(change.points);
-    for (auto of = change.changed_points.rbegin(); of != change.changed_points.rend(); ++of) {
-      count(slabs_[of->point], -1);
-      slabs_[of->point] = of->slab;
-      lips_[of->point] = of->lip;
-      count(of->slab, 1);
+    for (std::size_t i = change.changed_points.size(); i-- > 0;) {
+      const Change::OfPoint& of = change.changed_points[i];
+      count(slabs_[of.point], -1);
+      slabs_[of.point] = of.slab;
+      lips_[of.point] = of.lip;
+      count(of.slab, 1);
     }
     std::vector<std::pair<Index, const Particle*>> newer;
     for (auto of = change.changed_particles.rbegin(); of != change.changed_particles.rend(); ++of) {

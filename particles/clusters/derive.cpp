@@ -23,13 +23,14 @@ class Derivation {
   }
   void points_before() {
     for (Change& change : structure_.tears.done)
-      for (Change::OfPoint& of : change.changed_points) set(of.slab, of.influences, of.owner);
+      change.changed_points.for_each(
+          [&](Change::OfPoint& of) { set(of.slab, of.influences, of.owner); });
   }
   void members() {
     structure_.members.joined.assign(structure_.particles.size(), {});
     for (Index p = 0; p < points_.count(); ++p) join(p, points_.slabs[p]);
     for (const Change& change : structure_.tears.done)
-      for (const Change::OfPoint& of : change.changed_points) join(of.point, of.slab);
+      change.changed_points.for_each([&](const Change::OfPoint& of) { join(of.point, of.slab); });
     for (std::vector<Index>& joined : structure_.members.joined) {
       std::sort(joined.begin(), joined.end());
       joined.erase(std::unique(joined.begin(), joined.end()), joined.end());

@@ -134,10 +134,7 @@ void describe_points(Tape& tape, PointTable& of, const PointTable& before) {
   describe_changed(tape, of.slabs, before.slabs);
   describe_changed(tape, of.lip_points, before.lip_points);
   // Those after the end are of operations that were undone.
-  const auto appended = of.memberships.from(before.memberships.size());
-  std::vector<ParticleMembership> more(
-      appended.begin(), appended.begin() + static_cast<std::ptrdiff_t>(of.ends.memberships -
-                                                                       before.memberships.size()));
+  std::vector<ParticleMembership> more = of.memberships.appended(of.ends.memberships);
   describe_each(tape, more);
   if (tape.is_reading()) of.memberships.set_appended(std::move(more));
   std::vector<OnLip> older(of.older_lips.begin(),
@@ -262,7 +259,11 @@ void describe(Tape& tape, Change& of) {
   tape(of.lips);
   describe(tape, of.ends_before);
   tape.all(of.vertices);
-  describe_each(tape, of.changed_points);
+  std::vector<Change::OfPoint> changed_points;
+  of.changed_points.for_each(
+      [&](const Change::OfPoint& point) { changed_points.push_back(point); });
+  describe_each(tape, changed_points);
+  if (tape.is_reading()) of.changed_points.assign(changed_points);
   tape.each(of.changed_particles, [&](std::pair<Index, Particle>& changed) {
     tape(changed.first);
     describe(tape, changed.second);

@@ -19,8 +19,9 @@ std::size_t bytes_of(const PointColumns& columns) {
 }
 
 std::size_t bytes_of(const Change& change) {
-  std::size_t bytes = sizeof(Change) + bytes_of(change.vertices) + bytes_of(change.changed_points) +
-                      bytes_of(change.changed_vertices) + bytes_of(change.changed_lips);
+  std::size_t bytes = sizeof(Change) + bytes_of(change.vertices) +
+                      change.changed_points.memory_bytes() + bytes_of(change.changed_vertices) +
+                      bytes_of(change.changed_lips);
   for (const auto& [index, particle] : change.changed_particles) bytes += bytes_of(particle);
   if (!change.appended) return bytes;
   const Change::Appended& appended = *change.appended;
@@ -33,7 +34,10 @@ std::size_t bytes_of(const Change& change) {
 std::size_t bytes_of(const RepairScratch& scratch) {
   std::size_t bytes = scratch.front.memory_bytes() + scratch.band_front.memory_bytes() +
                       bytes_of(scratch.beside) + bytes_of(scratch.work_of) +
-                      bytes_of(scratch.score_of) + bytes_of(scratch.area_change);
+                      bytes_of(scratch.score_of) + bytes_of(scratch.area_change) +
+                      bytes_of(scratch.edit.works) + bytes_of(scratch.edit.memberships) +
+                      bytes_of(scratch.edit.counted) + bytes_of(scratch.edit.by_particle) +
+                      bytes_of(scratch.edit.first_of_particle);
   for (const Marks* marks :
        {&scratch.worked, &scratch.logged_points, &scratch.logged_particles, &scratch.seen,
         &scratch.given, &scratch.scored, &scratch.has_area_change})

@@ -40,20 +40,31 @@ void RestChange::begin(Particle& particle) {
   for (Index i = 0; i < particle.terms.size(); ++i) places_[particle.terms[i].slot] = i;
 }
 
+void RestChange::add_term(Index slot, const Vec4d& term) {
+  Index& place = places_[slot];
+  if (place == kNone) {
+    particle_->terms.push_back({slot, Vec4d(Vec4d::Zero())});
+    place = static_cast<Index>(particle_->terms.size() - 1);
+  }
+  particle_->terms[place].sum += term;
+}
+
 void RestChange::add(const VertexRef& vertex, double sign) {
   meshes_[vertex.mesh].for_each(
-      vertex.vertex,
-      [&](Index slot, const Vec4d& term) {
-        Index& place = places_[slot];
-        if (place == kNone) {
-          particle_->terms.push_back({slot, Vec4d(Vec4d::Zero())});
-          place = static_cast<Index>(particle_->terms.size() - 1);
-        }
-        particle_->terms[place].sum += sign * term;
-      },
+      vertex.vertex, [&](Index slot, const Vec4d& term) { add_term(slot, sign * term); },
       [&](Index morph_weight, Index slot, const Vec3d& term) {
         particles::add(particle_->morph_terms, morph_weight, slot, sign * term);
       });
+}
+
+void RestChange::replace(const tear::FormerWeights& before) {
+  meshes_[before.mesh].for_each_of(
+      before.vertex, before.position, before.influences,
+      [&](Index slot, const Vec4d& term) { add_term(slot, -term); },
+      [&](Index morph_weight, Index slot, const Vec3d& term) {
+        particles::add(particle_->morph_terms, morph_weight, slot, -term);
+      });
+  add({before.mesh, before.vertex}, 1);
 }
 
 void RestChange::finish() {

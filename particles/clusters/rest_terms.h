@@ -2,6 +2,7 @@
 
 #include "particles/clusters/particle.h"
 #include "particles/clusters/point_table.h"
+#include "tear/internal/former_weights.h"
 
 namespace sunder::particles {
 
@@ -29,34 +30,47 @@ class MeshRestTerms {
     const std::span<const Influence> influences = mesh_.weights.of(vertex);
     const Index place = is_plain_ ? kNone : model_.influence_place(index_, vertex);
     if (place == kNone) {
-      const Vec3f& at = mesh_.positions[vertex];
-      const Vec4d one(double{at.x()}, double{at.y()}, double{at.z()}, 1.0);
-      for (const Influence& influence : influences)
-        visit(first_slot_ + influence.slot, Vec4d(double{influence.weight} * one));
-    } else {
-      for (std::size_t i = 0; i < influences.size(); ++i) {
-        const Vec3f& at = exact_.positions[place + i];
-        visit(first_slot_ + influences[i].slot,
-              Vec4d(double{at.x()}, double{at.y()}, double{at.z()}, double{influences[i].weight}));
-      }
+      for_each_of(vertex, mesh_.positions[vertex], influences, visit, visit_morph);
+      return;
+    }
+    for (std::size_t i = 0; i < influences.size(); ++i) {
+      const Vec3f& at = exact_.positions[place + i];
+      visit(first_slot_ + influences[i].slot,
+            Vec4d(double{at.x()}, double{at.y()}, double{at.z()}, double{influences[i].weight}));
     }
     for (Index t = 0; t < mesh_.morph_targets.size(); ++t) {
-      if (place != kNone && !exact_.morph_targets.empty() &&
-          !exact_.morph_targets[t].positions.empty()) {
-        for (std::size_t i = 0; i < influences.size(); ++i)
-          visit_morph(mesh_.first_morph_weight + t, first_slot_ + influences[i].slot,
-                      Vec3d(exact_.morph_targets[t].positions[place + i].cast<double>()));
+      if (exact_.morph_targets.empty() || exact_.morph_targets[t].positions.empty()) {
+        visit_deltas(t, vertex, influences, visit_morph);
         continue;
       }
-      const auto& deltas = mesh_.morph_targets[t].position_deltas;
-      if (deltas.empty() || deltas[vertex] == Vec3f::Zero()) continue;
-      for (const Influence& influence : influences)
-        visit_morph(mesh_.first_morph_weight + t, first_slot_ + influence.slot,
-                    Vec3d(influence.weight * deltas[vertex].cast<double>()));
+      for (std::size_t i = 0; i < influences.size(); ++i)
+        visit_morph(mesh_.first_morph_weight + t, first_slot_ + influences[i].slot,
+                    Vec3d(exact_.morph_targets[t].positions[place + i].cast<double>()));
     }
+  }
+  /// The same for a vertex with another bind position and other influences, not of the policy
+  /// `exact`.
+  template <class Visit, class VisitMorph>
+  void for_each_of(Index vertex, const Vec3f& at, std::span<const Influence> influences,
+                   Visit visit, VisitMorph visit_morph) const {
+    const Vec4d one(double{at.x()}, double{at.y()}, double{at.z()}, 1.0);
+    for (const Influence& influence : influences)
+      visit(first_slot_ + influence.slot, Vec4d(double{influence.weight} * one));
+    for (Index t = 0; t < mesh_.morph_targets.size(); ++t)
+      visit_deltas(t, vertex, influences, visit_morph);
   }
 
  private:
+  template <class VisitMorph>
+  void visit_deltas(Index target, Index vertex, std::span<const Influence> influences,
+                    VisitMorph visit_morph) const {
+    const auto& deltas = mesh_.morph_targets[target].position_deltas;
+    if (deltas.empty() || deltas[vertex] == Vec3f::Zero()) return;
+    for (const Influence& influence : influences)
+      visit_morph(mesh_.first_morph_weight + target, first_slot_ + influence.slot,
+                  Vec3d(influence.weight * deltas[vertex].cast<double>()));
+  }
+
   const TornModel& model_;
   Index index_;
   const Mesh& mesh_;
@@ -81,9 +95,13 @@ class RestChange {
   void begin(Particle& particle);
   /// @param sign  1 or -1.
   void add(const VertexRef& vertex, double sign);
+  /// Replaces the terms that a vertex had before by those that it has now.
+  void replace(const tear::FormerWeights& before);
   void finish();
 
  private:
+  void add_term(Index slot, const Vec4d& term);
+
   std::vector<MeshRestTerms> meshes_;
   Particle* particle_ = nullptr;
   std::vector<Index> places_;  ///< Per slot: its place in the particle's terms, or kNone.

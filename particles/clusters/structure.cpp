@@ -60,7 +60,6 @@ void Structure::finish(Index triangles) {
 void Structure::prepare_for_tears(Index triangles) {
   finish(triangles);
   make_room(points.count() + 1);
-  points.memberships.reserve(points.ends.memberships / 16);
   for (std::vector<Index>& of_mesh : vertex_points.of_mesh)
     reserve_eighth(of_mesh, of_mesh.size() + 1);
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <utility>
 
 #include "particles/clusters/band.h"
 #include "particles/clusters/check_history.h"
@@ -53,6 +54,7 @@ class Check {
   void history(std::vector<Counts> levels);
   void change(const Change& of, Index level);
   void now();
+  void memberships_of_last();
   void chain(const LipChain& of, const Counts& in);
   void band(const Counts& in);
   [[nodiscard]] const Status& status() const { return status_; }
@@ -250,7 +252,8 @@ void Check::history(std::vector<Counts> levels) {
 
 void Check::change(const Change& of, Index level) {
   const Counts& in = levels_[level];
-  for (const Change::OfPoint& changed : of.changed_points) {
+  for (std::size_t i = 0; i < of.changed_points.size(); ++i) {
+    const Change::OfPoint& changed = of.changed_points[i];
     require(changed.point < in.points, "a changed point", changed.point);
     if (!status_) return;
     point(changed.point, changed.slab, changed.lip);
@@ -282,10 +285,26 @@ void Check::change(const Change& of, Index level) {
   if (of.pending_before) pending(*of.pending_before, in);
 }
 
+/// settle() writes over memberships of the last operation, so each belongs to one point.
+void Check::memberships_of_last() {
+  if (!status_ || structure_.tears.done.empty()) return;
+  const PointTable& points = structure_.points;
+  const std::size_t from = structure_.tears.done.back().ends_before.memberships;
+  std::vector<std::uint8_t> is_taken(points.memberships.size() - from);
+  for (Index p = 0; p < points.count(); ++p) {
+    const MembershipSlab& of = points.slabs[p];
+    if (of.first < from) continue;
+    for (std::size_t i = of.first - from; i < of.first - from + of.count; ++i)
+      require(std::exchange(is_taken[i], std::uint8_t{1}) == 0,
+              "two points have the same memberships", p);
+  }
+}
+
 void Check::now() {
   if (!status_) return;
   const PointTable& points = structure_.points;
   for (Index p = 0; p < points.count(); ++p) point(p, points.slabs[p], points.lip_points[p]);
+  memberships_of_last();
   new_points();
   for (Index i = 0; i < points.older_lips.size(); ++i)
     require((points.older_lips[i].older == kNone || points.older_lips[i].older < i) &&

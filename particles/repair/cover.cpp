@@ -11,8 +11,8 @@ namespace {
 ParticleInfluences influences_before(StructureEdit& edit, Index point) {
   const Change& change = edit.change();
   if (point < change.points) {
-    for (const Change::OfPoint& of : change.changed_points)
-      if (of.point == point) return of.influences;
+    for (std::size_t i = 0; i < change.changed_points.size(); ++i)
+      if (change.changed_points[i].point == point) return change.changed_points[i].influences;
     return edit.structure().points.influences[point];
   }
   const Ring around = edit.other_ring()(point);

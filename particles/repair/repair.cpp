@@ -41,8 +41,9 @@ std::vector<Index> all_lips(const StructureEdit& edit) {
   const PointTable& points = edit.structure().points;
   const auto is_on_lip = [&](Index point) { return points.lip_points[point].tear == edit.tear(); };
   std::vector<Index> lips;
-  for (const Change::OfPoint& of : edit.change().changed_points)
+  edit.change().changed_points.for_each([&](const Change::OfPoint& of) {
     if (is_on_lip(of.point)) lips.push_back(of.point);
+  });
   for (Index point = edit.change().points; point < points.count(); ++point)
     if (is_on_lip(point)) lips.push_back(point);
   return lips;

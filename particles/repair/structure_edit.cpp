@@ -1,6 +1,7 @@
 #include "particles/repair/structure_edit.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "particles/clusters/cells.h"
 #include "particles/clusters/influences.h"
@@ -24,7 +25,9 @@ StructureEdit::StructureEdit(const TornModel& model, Structure& structure, Chang
       first_new_point_(structure.points.count()),
       border_(model),
       ring_(model.surface(), structure.points.positions),
-      other_ring_(model.surface(), structure.points.positions) {
+      other_ring_(model.surface(), structure.points.positions),
+      arrays_(std::move(structure.scratch.edit)) {
+  arrays_.clear();
   structure.make_room(surface_.point_count());
   structure.scratch.worked.begin(surface_.point_count());
 }
@@ -32,21 +35,21 @@ StructureEdit::StructureEdit(const TornModel& model, Structure& structure, Chang
 StructureEdit::Work& StructureEdit::work_of(Index point) {
   RepairScratch& scratch = structure_.scratch;
   if (scratch.worked.mark(point)) {
-    scratch.work_of[point] = static_cast<Index>(works_.size());
+    scratch.work_of[point] = static_cast<Index>(arrays_.works.size());
     const auto known = structure_.points.memberships_of(point);
     const auto count = static_cast<Index>(known.size());
-    works_.push_back({point, static_cast<Index>(memberships_.size()), count,
-                      count + kMoreMemberships, structure_.points.owners[point]});
-    memberships_.insert(memberships_.end(), known.begin(), known.end());
-    memberships_.resize(memberships_.size() + kMoreMemberships);
+    arrays_.works.push_back({point, static_cast<Index>(arrays_.memberships.size()), count,
+                             count + kMoreMemberships, structure_.points.owners[point]});
+    arrays_.memberships.insert(arrays_.memberships.end(), known.begin(), known.end());
+    arrays_.memberships.resize(arrays_.memberships.size() + kMoreMemberships);
   }
-  return works_[scratch.work_of[point]];
+  return arrays_.works[scratch.work_of[point]];
 }
 
 std::span<const ParticleMembership> StructureEdit::memberships(Index point) const {
   if (!structure_.scratch.worked.has(point)) return structure_.points.memberships_of(point);
-  const Work& work = works_[structure_.scratch.work_of[point]];
-  return {memberships_.data() + work.first, work.count};
+  const Work& work = arrays_.works[structure_.scratch.work_of[point]];
+  return {arrays_.memberships.data() + work.first, work.count};
 }
 
 bool StructureEdit::may_join(Index point, Index particle, Index undecided_tear) {
@@ -68,18 +71,19 @@ bool StructureEdit::may_join(Index point, Index particle, Index undecided_tear) 
 void StructureEdit::join(Index point, const ParticleMembership& membership) {
   Work& work = work_of(point);
   for (Index i = work.first; i < work.first + work.count; ++i)
-    if (memberships_[i].particle == membership.particle) {
-      memberships_[i].reach = std::min(memberships_[i].reach, membership.reach);
+    if (arrays_.memberships[i].particle == membership.particle) {
+      arrays_.memberships[i].reach = std::min(arrays_.memberships[i].reach, membership.reach);
       return;
     }
   if (work.count == work.room) {
-    const Work moved{point, static_cast<Index>(memberships_.size()), work.count, 2 * work.room + 2,
-                     work.owner};
-    memberships_.resize(moved.first + moved.room);
-    std::copy_n(memberships_.begin() + work.first, work.count, memberships_.begin() + moved.first);
+    const Work moved{point, static_cast<Index>(arrays_.memberships.size()), work.count,
+                     2 * work.room + 2, work.owner};
+    arrays_.memberships.resize(moved.first + moved.room);
+    std::copy_n(arrays_.memberships.begin() + work.first, work.count,
+                arrays_.memberships.begin() + moved.first);
     work = moved;
   }
-  memberships_[work.first + work.count++] = membership;
+  arrays_.memberships[work.first + work.count++] = membership;
 }
 
 Particle& StructureEdit::change_particle(Index particle) {
@@ -97,7 +101,7 @@ void StructureEdit::move_seed(Index particle, Index seed) {
 
 Index StructureEdit::owner_before(Index point) const {
   if (!structure_.scratch.worked.has(point)) return structure_.points.owners[point];
-  return works_[structure_.scratch.work_of[point]].owner;
+  return arrays_.works[structure_.scratch.work_of[point]].owner;
 }
 
 void StructureEdit::log_point(Index point) {
@@ -126,7 +130,7 @@ void StructureEdit::count_members(Index point, std::span<const ParticleMembershi
   const auto change = [&](Index particle, int sign) {
     Particle& of = change_particle(particle);
     of.member_count = static_cast<Index>(static_cast<std::int64_t>(of.member_count) + sign);
-    counted_.push_back({particle, point, sign});
+    arrays_.counted.push_back({particle, point, sign});
     if (sign > 0) structure_.members.joined[particle].push_back(point);
   };
   std::size_t b = 0, n = 0;
@@ -142,21 +146,27 @@ void StructureEdit::count_members(Index point, std::span<const ParticleMembershi
 
 /// Brings the terms of particles up to date. Each sums its points in their order in the edit.
 void StructureEdit::sum_rests() {
-  std::stable_sort(counted_.begin(), counted_.end(),
-                   [](const Counted& a, const Counted& b) { return a.particle < b.particle; });
+  auto& [works, memberships, counted, by_particle, first] = arrays_;
+  if (counted.empty()) return;
+  // Sorted by counting, which keeps the order of equal ones.
+  first.assign(structure_.particles.size() + 2, 0);
+  for (const Counted& of : counted) ++first[of.particle + 2];
+  for (std::size_t p = 2; p < first.size(); ++p) first[p] += first[p - 1];
+  by_particle.resize(counted.size());
+  for (const Counted& of : counted) by_particle[first[of.particle + 1]++] = of;
   RestChange change(model_, structure_.character.first_slots);
-  for (auto of = counted_.begin(); of != counted_.end();) {
+  for (auto of = by_particle.begin(); of != by_particle.end();) {
     const Index particle = of->particle;
     change.begin(structure_.particles[particle]);
-    for (; of != counted_.end() && of->particle == particle; ++of)
+    for (; of != by_particle.end() && of->particle == particle; ++of)
       change.add(structure_.points.vertices[of->point], of->sign);
     change.finish();
   }
-  counted_.clear();
+  counted.clear();
 }
 
 void StructureEdit::put_back(const Work& work) {
-  const std::span<ParticleMembership> now(memberships_.data() + work.first, work.count);
+  const std::span<ParticleMembership> now(arrays_.memberships.data() + work.first, work.count);
   const auto by_particle = [](const ParticleMembership& a, const ParticleMembership& b) {
     return a.particle < b.particle;
   };
@@ -173,20 +183,33 @@ void StructureEdit::put_back(const Work& work) {
   count_members(work.point, before, now);
   points.influences[work.point] = influences_from(now);
   points.owners[work.point] = owner_of(now, structure_.particles);
-  points.slabs[work.point] = {static_cast<Index>(points.memberships.size()),
-                              static_cast<Index>(now.size())};
-  points.memberships.append(now);
+  write_memberships(work.point, now);
+}
+
+/// Undo needs the memberships before the change, not those of steps in between, which are written
+/// over where there is room.
+void StructureEdit::write_memberships(Index point, std::span<const ParticleMembership> now) {
+  PointTable& points = structure_.points;
+  MembershipSlab& slab = points.slabs[point];
+  const bool is_of_change = slab.count > 0 && slab.first >= change_.ends_before.memberships;
+  if (is_of_change && points.memberships.replace(slab.first, slab.count, now)) {
+    slab.count = static_cast<Index>(now.size());
+    return;
+  }
+  const auto first = static_cast<Index>(points.memberships.size());
+  points.memberships.append(now, is_of_change ? now.size() / 2 + kMoreMemberships : 0);
+  slab = {first, static_cast<Index>(now.size())};
 }
 
 void StructureEdit::finish(const RewrittenFaces& rewritten) {
-  MembershipList& memberships = structure_.points.memberships;
-  memberships.reserve(memberships_.size());
-  for (const Work& work : works_) put_back(work);
+  const MembershipList& memberships = structure_.points.memberships;
+  for (const Work& work : arrays_.works) put_back(work);
   sum_rests();
   renew_cells(*this, rewritten);
   PointTable& points = structure_.points;
   change_.ends_after = points.ends = {memberships.size(), points.older_lips.size()};
   ++structure_.revision;
+  if (structure_.tears.band) structure_.scratch.edit = std::move(arrays_);
 }
 
 }  // namespace sunder::particles

@@ -38,8 +38,8 @@ class StructureEdit {
   [[nodiscard]] std::span<const ParticleMembership> memberships(Index point) const;
   /// Adds a point to the edit, so that finish() updates it.
   void take_up(Index point) { (void)work_of(point); }
-  [[nodiscard]] std::size_t taken_up_count() const { return works_.size(); }
-  [[nodiscard]] Index taken_up(std::size_t i) const { return works_[i].point; }
+  [[nodiscard]] std::size_t taken_up_count() const { return arrays_.works.size(); }
+  [[nodiscard]] Index taken_up(std::size_t i) const { return arrays_.works[i].point; }
 
   /// Adds a membership; of two of the same particle the nearer is kept.
   void join(Index point, const ParticleMembership& membership);
@@ -51,8 +51,8 @@ class StructureEdit {
     Work& work = work_of(point);
     Index kept = 0;
     for (Index i = 0; i < work.count; ++i) {
-      ParticleMembership membership = memberships_[work.first + i];
-      if (keep(membership)) memberships_[work.first + kept++] = membership;
+      ParticleMembership membership = arrays_.memberships[work.first + i];
+      if (keep(membership)) arrays_.memberships[work.first + kept++] = membership;
     }
     work.count = kept;
   }
@@ -76,20 +76,12 @@ class StructureEdit {
   void finish(const RewrittenFaces& rewritten);
 
  private:
-  /// A point of the edit, and its range in memberships_.
-  struct Work {
-    Index point = 0;
-    Index first = 0, count = 0, room = 0;
-    Index owner = kNone;  ///< Before the edit.
-  };
-  /// A point that a particle gained or lost.
-  struct Counted {
-    Index particle, point;
-    int sign;
-  };
+  using Work = EditArrays::Work;
+  using Counted = EditArrays::Counted;
 
   Work& work_of(Index point);
   void put_back(const Work& work);
+  void write_memberships(Index point, std::span<const ParticleMembership> now);
   void count_members(Index point, std::span<const ParticleMembership> before,
                      std::span<const ParticleMembership> now);
   void sum_rests();
@@ -102,9 +94,7 @@ class StructureEdit {
   Index first_new_point_;
   LipBorder border_;
   RingWalk ring_, other_ring_;
-  std::vector<Work> works_;
-  std::vector<ParticleMembership> memberships_;
-  std::vector<Counted> counted_;
+  EditArrays arrays_;
   std::vector<Index> moved_seeds_;
 };
 

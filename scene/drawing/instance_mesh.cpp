@@ -17,7 +17,8 @@ StridedFloats<float> floats_of(std::vector<Vector>& values) {
 template <class Vector>
 void resize_within(std::size_t room, Index count, std::vector<Vector>& values) {
   if (values.capacity() < count)
-    values.reserve(std::max(room, std::size_t{count} + (values.empty() ? 0 : count / 64 + 32)));
+    values.reserve(std::max(
+        room, std::size_t{count} + (values.empty() ? 0 : InstanceMesh::room_for_tears(count))));
   values.resize(count, Vector::Zero());
 }
 

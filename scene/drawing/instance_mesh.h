@@ -30,6 +30,10 @@ struct PreparedTail {
 /// skinned by the data of the asset, appended ones by data of the instance.
 class InstanceMesh {
  public:
+  /// Room for new vertices of a mesh that is torn: memory that grows moves, which costs a frame
+  /// much more than the tear.
+  static Index room_for_tears(Index vertex_count) { return vertex_count / 16 + 64; }
+
   /// @param room  number of vertices for which memory is kept, beyond those of the source.
   InstanceMesh(const AssetMesh& asset, Index vertex_count, Index room, bool unit_length)
       : asset_(&asset),
