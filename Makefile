@@ -16,6 +16,7 @@ help:
 	@echo 'make format   clang-format over all our C++'
 
 demo:
+	@echo 'Installs packages, builds (about 8 minutes on two cores), then tears a model: progress is printed.'
 	scripts/setup
 	cmake --preset release
 	cmake --build --preset release --target sunder
@@ -34,6 +35,7 @@ unit:
 	ctest --preset release -L unit -j $(jobs)
 
 test:
+	@echo 'Installs packages, builds (about 25 minutes on two cores), then runs the tests (about 17).'
 	scripts/setup test
 	cmake --preset release
 	cmake --build --preset release

@@ -52,7 +52,7 @@ function(add_block page line given block)
   endforeach()
 endfunction()
 
-file(GLOB pages RELATIVE ${ROOT} ${ROOT}/README.md ${ROOT}/docs/*.md ${ROOT}/docs/method/*.md)
+file(GLOB pages RELATIVE ${ROOT} ${ROOT}/README.md ${ROOT}/docs/*.md ${ROOT}/docs/command/*.md ${ROOT}/docs/method/*.md)
 foreach(page IN LISTS pages)
   file(READ ${ROOT}/${page} text)
   set(line 1)

@@ -1,9 +1,10 @@
-// The options of the command agree with docs/command.md, the manual page and the completions.
+// The options of the command agree with docs/command/, the manual page and the completions.
 
 #include "tools/command_line/command_line.h"
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <regex>
@@ -71,27 +72,31 @@ OptionTable options_in_page(const std::string& part) {
   return table;
 }
 
-/// The parts of docs/command.md by verb; the part before the first verb has an empty name.
-std::map<std::string, std::string> parts_of_page() {
-  std::ifstream page(SUNDER_SOURCE_DIR "/docs/command.md");
-  std::map<std::string, std::string> parts;
-  std::string verb;
-  for (std::string line; std::getline(page, line);) {
-    std::smatch match;
-    if (std::regex_search(line, match, std::regex("^## `sunder ([a-z]+)"))) verb = match[1];
-    parts[verb] += line + '\n';
+/// docs/command.md with an empty name, and the pages of docs/command/ by the verb of their titles.
+/// One without a verb has no options.
+std::map<std::string, std::string> pages_by_verb() {
+  std::map<std::string, std::string> pages;
+  const std::filesystem::path docs = SUNDER_SOURCE_DIR "/docs";
+  pages[""] = test::read_text(docs / "command.md");
+  for (const auto& entry : std::filesystem::directory_iterator(docs / "command")) {
+    const std::string text = test::read_text(entry.path());
+    std::smatch title;
+    if (std::regex_search(text, title, std::regex("^# `sunder ([a-z]+)")))
+      pages[title[1]] = text;
+    else
+      EXPECT_TRUE(options_in_page(text).empty()) << entry.path();
   }
-  return parts;
+  return pages;
 }
 
 TEST(CommandLine, the_page_lists_every_option_with_its_default) {
-  std::map<std::string, std::string> parts = parts_of_page();
+  std::map<std::string, std::string> pages = pages_by_verb();
   std::set<std::string> verbs;
   for (const ListedVerb& verb : all_verbs()) {
-    EXPECT_EQ(options_in_page(parts[verb.name]), options_in_app(verb)) << "sunder " << verb.name;
+    EXPECT_EQ(options_in_page(pages[verb.name]), options_in_app(verb)) << "sunder " << verb.name;
     verbs.insert(verb.name);
   }
-  for (const auto& [verb, part] : parts) EXPECT_TRUE(verbs.contains(verb)) << verb;
+  for (const auto& [verb, page] : pages) EXPECT_TRUE(verbs.contains(verb)) << verb;
 }
 
 TEST(CommandLine, help_and_manual_and_completions_have_every_option) {

@@ -17,16 +17,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string text_of(const fs::path& file) {
-  const std::vector<std::byte> bytes = test::read_bytes(file);
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
 /// The content of all files of a folder.
 std::map<std::string, std::string> content_of(const fs::path& folder) {
   std::map<std::string, std::string> content;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder))
-    content[entry.path().filename().string()] = text_of(entry.path());
+    content[entry.path().filename().string()] = test::read_text(entry.path());
   return content;
 }
 
@@ -53,15 +48,15 @@ TEST_F(HostileFolder, a_planted_helper_is_not_executed) {
   const std::string tools = fs::path(SUNDER_COMMAND).parent_path().string();
   const std::string begin = "cd '" + models.string() + "' && PATH='" + tools + "':\"$PATH\" ";
   EXPECT_EQ(std::system((begin + "sunder info triangle.off > out 2> err").c_str()), 0)
-      << text_of(models / "err");
-  EXPECT_THAT(text_of(models / "out"), HasSubstr("OFF"));
+      << test::read_text(models / "err");
+  EXPECT_THAT(test::read_text(models / "out"), HasSubstr("OFF"));
   EXPECT_FALSE(fs::exists(models / "was_executed"));
   // The same for a name that is a path into the folder.
   EXPECT_EQ(
       std::system(
           (begin + "bash -c 'exec -a ./sunder sunder info triangle.off' > out 2> err").c_str()),
       0)
-      << text_of(models / "err");
+      << test::read_text(models / "err");
   EXPECT_FALSE(fs::exists(models / "was_executed"));
 }
 
@@ -85,7 +80,7 @@ TEST_F(HostileFolder, an_earlier_picture_survives_a_failure) {
   const CommandResult result =
       run_sunder({"picture", model(), "-o", (models / "out.png").string(), "--max-memory", "1"});
   EXPECT_NE(result.exit_code, 0);
-  EXPECT_EQ(text_of(models / "out.png"), "earlier") << result.err;
+  EXPECT_EQ(test::read_text(models / "out.png"), "earlier") << result.err;
   EXPECT_EQ(content_of(models).size(), 1u);
 }
 
@@ -103,10 +98,10 @@ TEST_F(HostileFolder, a_planted_link_is_not_written_through) {
   const CommandResult result = run_sunder({"tear", model(), "--ops", ops, "-o", output.string(),
                                            "--report", report.string(), "--quiet"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_EQ(text_of(models / "precious_report"), "precious");
-  EXPECT_EQ(text_of(models / "precious_torn"), "precious");
-  EXPECT_TRUE(text_of(output).starts_with("glTF"));
-  EXPECT_TRUE(json::accept(text_of(report)));
+  EXPECT_EQ(test::read_text(models / "precious_report"), "precious");
+  EXPECT_EQ(test::read_text(models / "precious_torn"), "precious");
+  EXPECT_TRUE(test::read_text(output).starts_with("glTF"));
+  EXPECT_TRUE(json::accept(test::read_text(report)));
 }
 
 TEST_F(HostileFolder, modes_and_devices_stay) {
@@ -136,8 +131,8 @@ TEST_F(HostileFolder, modes_and_devices_stay) {
   const std::string command = std::string("'") + SUNDER_COMMAND + "' tear '" + model() +
                               "' --ops '" + ops + "' -o /dev/fd/1 --quiet | cat > '" + piped + "'";
   EXPECT_EQ(std::system(command.c_str()), 0);
-  EXPECT_TRUE(text_of(piped).starts_with("glTF"));
-  EXPECT_EQ(text_of(piped), text_of(output));
+  EXPECT_TRUE(test::read_text(piped).starts_with("glTF"));
+  EXPECT_EQ(test::read_text(piped), test::read_text(output));
 }
 
 /// Ends lines, begins commands of CI services, colours, and turns the direction of writing.

@@ -11,7 +11,7 @@ using test::Pixels;
 using testing::StartsWith;
 
 constexpr Pixels::Color kBackground = {237, 240, 242};
-// What the marks of docs/command.md look like.
+// What the marks of docs/command/picture.md look like.
 constexpr Pixels::Color kStroke = {243, 39, 39}, kBase = {39, 193, 63}, kTip = {255, 225, 0};
 constexpr Pixels::Color kPlane = {39, 97, 237}, kBore = {173, 39, 204}, kBone = {162, 212, 255};
 

@@ -10,13 +10,14 @@
 #include "support/machine/temporary_folder.h"
 
 namespace sunder::test {
-namespace {
 
 std::string read_text(const std::filesystem::path& file) {
   std::ostringstream text;
   text << std::ifstream(file, std::ios::binary).rdbuf();
   return text.str();
 }
+
+namespace {
 
 void redirect(int descriptor, const std::filesystem::path& file) {
   const int target = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);

@@ -1,10 +1,14 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace sunder::test {
+
+/// The content of a file; empty if it cannot be read.
+std::string read_text(const std::filesystem::path& file);
 
 struct CommandResult {
   int exit_code = -1;  ///< -1: it crashed or did not start.

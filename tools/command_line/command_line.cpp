@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* kVersion = "sunder " SUNDER_VERSION;
 constexpr const char* kExitCodes =
-    "`sunder VERB --help` describes one verb; docs/command.md has all details.\n\n"
+    "`sunder VERB --help` describes one verb; docs/command.md leads to all details.\n\n"
     "Exit codes:\n"
     "  0  done\n"
     "  1  done, with findings\n"

@@ -7,7 +7,7 @@
 
 namespace sunder::tools {
 
-// As the reports of all verbs have them; docs/command.md.
+// As the reports of all verbs have them; docs/command/info.md.
 [[nodiscard]] Json to_json(const TopologyCounts& counts);
 [[nodiscard]] Json to_json(const LoadReport& report);
 

@@ -4,7 +4,7 @@
 
 namespace sunder::tools {
 
-/// The JSON report of a run; docs/command.md. Takes the reports of its operations.
+/// The JSON report of a run; docs/command/tear_report.md. Takes the reports of its operations.
 [[nodiscard]] Result<Json> report_json(TearRun& run);
 
 }  // namespace sunder::tools

@@ -7,7 +7,8 @@
 
 namespace sunder::tools {
 
-/// The choice of `--max-error`: certified maximum, influences, formats, bytes; see docs/command.md.
+/// The choice of `--max-error`: certified maximum, influences, formats, bytes; see
+/// docs/command/tear.md.
 [[nodiscard]] Json certificate_json(const CertifiedWeights& weights, const Character& unpruned,
                                     const MaximumError& wanted);
 
