@@ -7,7 +7,7 @@ namespace {
 
 /// A bone belongs to a limb if it and all that hang on it share with the limb at least so much of
 /// the surface that they share with any.
-constexpr double kLeastShared = 0.8;
+constexpr double kLeastOwnSurface = 0.8;
 
 /// A bone with all that hang on it.
 std::vector<Index> branch_of(const BoneTree& tree, Index top) {
@@ -56,7 +56,7 @@ class Extent {
     }
     const bool is_part = tree_.is_adopted(top) || weight <= weight_;
     const bool is_of_limb =
-        is_part && with_limb > 0 && with_limb >= kLeastShared * (with_limb + with_others);
+        is_part && with_limb > 0 && with_limb >= kLeastOwnSurface * (with_limb + with_others);
     for (const Index bone : branch) {
       is_of_branch_[bone] = false;
       if (is_of_limb) is_of_limb_[bone] = true;
