@@ -146,7 +146,7 @@ Status draw_shot(const Shot& shot, const DemoTear& tear, const ModelLooks& looks
   std::vector<Vec3d> wound;
   if (posture->wound) {
     wound = posture->wound->places(posture->open);
-    frame = see_wound(scene, frame);
+    frame = see_wound(scene, frame).frame;
   }
   const std::vector<Vec3d> places = places_of(actor.character(), posture->open);
   const Camera camera = aim(frame, places, wound, shot.closeness);

@@ -204,7 +204,14 @@ Status draw_torn(const LoadedCharacter& loaded, std::span<const Operation> histo
     messages.warn(png.string() + ": " + missing);
   RenderScene scene = make_torn_scene({torn, *closed, open, wounds}, *looks, kThickness * diagonal);
   add_surfaces(*beside, *looks, scene);
-  if (cut == nullptr) frame = see_wound(scene, frame);  // A cut is seen along its plane.
+  if (cut == nullptr) {  // A cut is seen along its plane.
+    const WoundView seen = see_wound(scene, frame);
+    frame = seen.frame;
+    if (seen.is_covered)
+      messages.warn(
+          png.string() +
+          ": the picture does not show the wound: other surfaces cover it from all sides");
+  }
   // The picture of a cut shows its pieces, that of a bore its surroundings.
   const double margin = cut != nullptr                                   ? 3.1
                         : std::holds_alternative<DrillOperation>(newest) ? 2.4

@@ -15,6 +15,8 @@ constexpr double kGoodEnough = 0.55;  ///< Of the flesh that the best view shows
 /// What a view is worth in addition, as shares of the same: near to the preferred one, and level.
 constexpr double kNear = 0.15, kLevel = 0.1;
 constexpr double kLevelElevation = 0.12;
+/// A wound is covered if no view shows more than this share of its area.
+constexpr double kLeastSeen = 0.02;
 
 /// A triangle of flesh.
 struct Patch {
@@ -50,6 +52,12 @@ class Visibility {
         sum += static_cast<double>(std::abs(patch.normal.dot(eye)));
     return sum;
   }
+  /// Of all flesh, in the same unit.
+  [[nodiscard]] double area() const {
+    double sum = 0;
+    for (const Patch& patch : patches_) sum += static_cast<double>(patch.normal.norm());
+    return sum;
+  }
 
  private:
   static std::vector<TriangleTree::Corners> corners_of(const RenderScene& scene) {
@@ -65,7 +73,7 @@ class Visibility {
 
 }  // namespace
 
-ViewFrame see_wound(const RenderScene& scene, const ViewFrame& preferred) {
+WoundView see_wound(const RenderScene& scene, const ViewFrame& preferred) {
   const Visibility visibility(scene);
   struct View {
     ViewFrame frame;
@@ -83,11 +91,13 @@ ViewFrame see_wound(const RenderScene& scene, const ViewFrame& preferred) {
       views.push_back({frame, visibility.from(frame.towards_eye), liking});
       most = std::max(most, views.back().flesh);
     }
-  if (before >= kGoodEnough * most) return preferred;
+  const bool is_covered = most < kLeastSeen * visibility.area();
+  if (before >= kGoodEnough * most) return {preferred, is_covered};
   const auto worth = [most](const View& view) { return view.flesh / most + view.liking; };
-  return std::max_element(views.begin(), views.end(),
-                          [&](const View& a, const View& b) { return worth(a) < worth(b); })
-      ->frame;
+  const auto best = std::max_element(views.begin(), views.end(), [&](const View& a, const View& b) {
+    return worth(a) < worth(b);
+  });
+  return {best->frame, is_covered};
 }
 
 }  // namespace sunder::tools
