@@ -11,6 +11,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
 
 #include "bench/scene/engine_loop.h"
 #include "bench/scene/scene_loop.h"
@@ -44,7 +47,17 @@ void print_engine(int argc, char** argv) {
 
 }  // namespace
 
+/// Makes malloc keep what is freed, as allocators of engines do. By default glibc gives much of it
+/// back to the system, which maps it anew in a later frame.
+void keep_freed_memory() {
+#if defined(__GLIBC__)
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);
+  mallopt(M_TRIM_THRESHOLD, 1 << 30);
+#endif
+}
+
 int main(int argc, char** argv) {
+  keep_freed_memory();
   if (argc > 1 && std::strcmp(argv[1], "--summary") == 0)
     sunder::bench::print_scene_summary();
   else if (argc > 1 && std::strcmp(argv[1], "--stages") == 0)

@@ -157,6 +157,16 @@ void move_apart(const Character& character, const PlaneCut& cut,
   }
 }
 
+/// The view of a wound; says if there is none that shows it.
+ViewFrame seen_wound(const RenderScene& scene, const ViewFrame& preferred,
+                     const std::filesystem::path& png, const Messages& messages) {
+  const WoundView seen = see_wound(scene, preferred);
+  if (seen.is_covered)
+    messages.warn(png.string() +
+                  ": the picture does not show the wound: other surfaces cover it from all sides");
+  return seen.frame;
+}
+
 }  // namespace
 
 Status draw_torn(const LoadedCharacter& loaded, std::span<const Operation> history,
@@ -204,14 +214,8 @@ Status draw_torn(const LoadedCharacter& loaded, std::span<const Operation> histo
     messages.warn(png.string() + ": " + missing);
   RenderScene scene = make_torn_scene({torn, *closed, open, wounds}, *looks, kThickness * diagonal);
   add_surfaces(*beside, *looks, scene);
-  if (cut == nullptr) {  // A cut is seen along its plane.
-    const WoundView seen = see_wound(scene, frame);
-    frame = seen.frame;
-    if (seen.is_covered)
-      messages.warn(
-          png.string() +
-          ": the picture does not show the wound: other surfaces cover it from all sides");
-  }
+  if (cut == nullptr)
+    frame = seen_wound(scene, frame, png, messages);  // A cut is seen along its plane.
   // The picture of a cut shows its pieces, that of a bore its surroundings.
   const double margin = cut != nullptr                                   ? 3.1
                         : std::holds_alternative<DrillOperation>(newest) ? 2.4
