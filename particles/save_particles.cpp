@@ -64,9 +64,8 @@ void complete(const TornModel& model, const Structure& decomposition, Structure&
   // The last operation goes on to log each point and particle once.
   structure.scratch.logged_points.begin(last.points);
   structure.scratch.logged_particles.begin(structure.particles.size());
-  last.changed_points.for_each([&](const Change::OfPoint& of) {
-    (void)structure.scratch.logged_points.mark(of.point);
-  });
+  last.changed_points.for_each(
+      [&](const Change::OfPoint& of) { (void)structure.scratch.logged_points.mark(of.point); });
   for (const auto& [particle, before] : last.changed_particles)
     (void)structure.scratch.logged_particles.mark(particle);
 }
