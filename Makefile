@@ -6,7 +6,7 @@ jobs := $(shell nproc)
 help:
 	@echo 'make demo     tears a model in the middle of its animation; pictures, GLB and report in demo/'
 	@echo 'make pictures draws all pictures of docs/ anew; before and after side by side in build/pictures/'
-	@echo 'make unit     builds everything and runs the unit tests, which take under two minutes'
+	@echo 'make unit     builds everything and runs the unit tests, which take some minutes'
 	@echo 'make test     builds everything and runs all tests'
 	@echo 'make coverage lines and branches of core, tear and weights that their tests run; fails below 95 and 85 %'
 	@echo 'make same-bits tries the same cases with gcc, optimised and not, and with clang: the results must have the same bits'
@@ -35,7 +35,7 @@ unit:
 	ctest --preset release -L unit -j $(jobs)
 
 test:
-	@echo 'Installs packages, builds (about 25 minutes on two cores), then runs the tests (about 17).'
+	@echo 'Installs packages, builds (less than half an hour on two cores), then runs the tests (about 12 minutes).'
 	scripts/setup test
 	cmake --preset release
 	cmake --build --preset release

@@ -56,7 +56,7 @@ class LimbRays {
   /// chest, it meets the one that continues its neighbour's.
   /// @param offset  in the plane of the view. @return empty where the ray misses the limb.
   [[nodiscard]] std::optional<RayHit> cast(const Vec3d& offset, const RayHit& neighbour) const;
-  /// What moves the place where a ray meets the near surface.
+  /// The weights of the limb and of others at the place where a ray meets the near surface.
   [[nodiscard]] LimbShares shares_at(const Vec3d& offset, const RayHit& hit) const;
   /// Whether a ray meets a surface that the limb does not move between two heights.
   [[nodiscard]] bool meets_others(const Vec3d& offset, double low, double high) const;

@@ -228,12 +228,18 @@ std::size_t sever_somewhere(TornModel& model, const std::string& bone) {
   return sever ? sever_and_detach(model, std::get<SeverOperation>(*sever)) : 0;
 }
 
-/// The tip of a spike consists of crossed faces alone, and another part touches it there.
-TEST(SeveredPieces, a_tip_comes_off_and_what_touches_it_stays) {
-  Character character = test::make_tube(2, 8, 3);
+/// A tube whose weights a test replaces: without morph targets and clips.
+Character plain_tube(std::uint32_t rings, std::uint32_t sides, std::uint32_t bone_count) {
+  Character character = test::make_tube(rings, sides, bone_count);
   character.rest_morph_weights.clear();
   character.meshes[0].morph_targets.clear();
   character.clips.clear();
+  return character;
+}
+
+/// The tip of a spike consists of crossed faces alone, and another part touches it there.
+TEST(SeveredPieces, a_tip_comes_off_and_what_touches_it_stays) {
+  Character character = plain_tube(2, 8, 3);
   Mesh spike = character.meshes[0];
   spike.name = "spike";
   for (Vec3f& position : spike.positions)
@@ -395,10 +401,7 @@ TEST(SeveredPieces, what_adjoins_the_body_too_is_no_part_of_the_limb) {
 
 /// A thumb's breadth beyond the last ring a spike has one vertex, with a quarter of the weights.
 TEST(SeveredPieces, where_triangles_are_large_what_comes_off_holds_most_of_the_vertices_weights) {
-  Character character = test::make_tube(3, 8, 3);
-  character.rest_morph_weights.clear();
-  character.meshes[0].morph_targets.clear();
-  character.clips.clear();
+  Character character = plain_tube(3, 8, 3);
   Mesh& mesh = character.meshes[0];
   mesh.weights = SkinWeights();
   for (Vec3f& position : mesh.positions) {
@@ -419,10 +422,7 @@ TEST(SeveredPieces, where_triangles_are_large_what_comes_off_holds_most_of_the_v
 
 /// A fin stands on an edge of the body, where its bone moves some of the body too.
 TEST(SeveredPieces, a_part_that_stands_on_an_edge_of_the_body_is_of_it) {
-  Character character = test::make_tube(30, 16, 3);
-  character.rest_morph_weights.clear();
-  character.meshes[0].morph_targets.clear();
-  character.clips.clear();
+  Character character = plain_tube(30, 16, 3);
   const Mesh tube = character.meshes[0];
   const std::uint32_t fin = add_bone(character, "fin", 1, 1.5f);
   character.skeleton.bones[fin].rest.translation.x() = 0.4f;
