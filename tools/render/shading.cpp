@@ -189,23 +189,23 @@ Shading::Light Shading::light_at(const Vec3f& start, const Vec3f& normal, const 
   return light;
 }
 
-Vec3f Shading::shown(const Surface& surface, const Light& light, const Vec3f& along) const {
-  const Vec3f color = surface.color.head<3>();
-  if (surface.is_unlit) return color.cwiseMin(1.0f);
+Vec3f Shading::shown(const Look& look, const Light& light, const Vec3f& along) const {
+  const Vec3f color = look.color.head<3>();
+  if (look.is_unlit) return color.cwiseMin(1.0f);
   const Vec3f towards_eye = -along.normalized();
   Vec3f diffuse = Vec3f::Constant(kEverywhere), mirrored = Vec3f::Zero();
   const auto add = [&](const Lighting::Light& from, float share) {
-    const float facing = surface.normal.dot(from.towards);
+    const float facing = look.normal.dot(from.towards);
     if (facing <= 0 || share <= 0) return;
     diffuse += share * facing * from.intensity;
-    const float half = surface.normal.dot((from.towards + towards_eye).normalized());
-    if (half > 0) mirrored += share * std::pow(half, surface.sharpness) * from.intensity;
+    const float half = look.normal.dot((from.towards + towards_eye).normalized());
+    if (half > 0) mirrored += share * std::pow(half, look.sharpness) * from.intensity;
   };
   add(lighting_.middle_of_lamp(), light.share_of_lamp());
   add(lighting_.fill(), 1);
-  diffuse += light.share_of_sky().cwiseProduct(Lighting::sky_light(surface.normal));
-  return compressed(kReflected * color.cwiseProduct(diffuse) + surface.gloss * mirrored +
-                    surface.emission);
+  diffuse += light.share_of_sky().cwiseProduct(Lighting::sky_light(look.normal));
+  return compressed(kReflected * color.cwiseProduct(diffuse) + look.gloss * mirrored +
+                    look.emission);
 }
 
 }  // namespace sunder::tools

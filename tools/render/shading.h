@@ -11,16 +11,19 @@ namespace sunder::tools {
 /// ask.
 class Shading {
  public:
-  /// A place on a surface, as it is seen.
-  struct Surface {
+  /// How a place on a surface reflects light.
+  struct Look {
     Vec4f color = Vec4f::Zero();  ///< Linear RGBA.
     Vec3f emission = Vec3f::Zero();
-    Vec3f normal = Vec3f::UnitY();                       ///< Towards the eye, with bumps.
+    Vec3f normal = Vec3f::UnitY();  ///< Towards the eye, with bumps.
+    float gloss = 0.035f, sharpness = 18;
+    bool is_unlit = false;
+  };
+  /// A place on a surface, as it is seen.
+  struct Surface : Look {
     Vec3f smooth = Vec3f::UnitY();                       ///< Without bumps.
     Vec3f flat = Vec3f::UnitY();                         ///< Of the triangle.
     Vec3f place = Vec3f::Zero(), start = Vec3f::Zero();  ///< `start`: where rays begin.
-    float gloss = 0.035f, sharpness = 18;
-    bool is_unlit = false;
   };
   /// How much of the sky and of the lamp is seen from a place: sums over directions.
   struct Light {
@@ -51,7 +54,7 @@ class Shading {
   [[nodiscard]] Light light_at(const Vec3f& start, const Vec3f& normal, const Vec3f& flat,
                                std::size_t pattern, std::size_t sky_rays) const;
   /// Linear RGB that is shown of a surface, each channel below 1.
-  [[nodiscard]] Vec3f shown(const Surface& surface, const Light& light, const Vec3f& along) const;
+  [[nodiscard]] Vec3f shown(const Look& look, const Light& light, const Vec3f& along) const;
 
  private:
   /// Texture coordinates of flesh that is no wound of its own.

@@ -21,12 +21,27 @@ constexpr float kNowhere = 1e30f;
 const std::array<Vec2d, Tile::kSamples> kPlaces = {
     {{0.375, 0.125}, {0.875, 0.375}, {0.125, 0.625}, {0.625, 0.875}}};
 
-std::uint8_t as_byte(float linear) {
-  const float tone = std::clamp(linear, 0.0f, 1.0f);
-  const float coded =
-      tone <= 0.0031308f ? 12.92f * tone : 1.055f * std::pow(tone, 1 / 2.4f) - 0.055f;
-  return static_cast<std::uint8_t>(std::lround(255 * coded));
-}
+/// Linear light as a byte of sRGB.
+class ByteOfLight {
+ public:
+  ByteOfLight() {
+    for (std::size_t i = 0; i < bytes_.size(); ++i) {
+      const float tone = static_cast<float>(i) / kSteps;
+      const float coded =
+          tone <= 0.0031308f ? 12.92f * tone : 1.055f * std::pow(tone, 1 / 2.4f) - 0.055f;
+      bytes_[i] = static_cast<std::uint8_t>(std::lround(255 * coded));
+    }
+  }
+  std::uint8_t operator()(float linear) const {
+    const float tone = std::clamp(linear, 0.0f, 1.0f);
+    return bytes_[static_cast<std::size_t>(kSteps * tone + 0.5f)];
+  }
+
+ private:
+  static constexpr std::size_t kSteps = 1u
+                                        << 14u;  ///< A fifth of the least light between two bytes.
+  std::array<std::uint8_t, kSteps + 1> bytes_;
+};
 
 }  // namespace
 
@@ -63,17 +78,12 @@ void Tile::see_sample(Pixel& pixel, int x, int y, const Vec3f& along, std::size_
                       TriangleTree::Hit hit) {
   const float pixel_size = 2 * view_.up.norm() / static_cast<float>(view_.size.height);
   for (int i = 0; hit.triangle != kNone; ++i) {
-    Layer layer;
-    layer.surface = shading_.surface_at(hit, view_.eye, along);
-    layer.depth = hit.distance;
-    const Probe probe{layer.surface.place,
-                      layer.surface.smooth,
-                      {},
-                      kSamePlane * pixel_size * hit.distance,
-                      false};
-    layer.probe = probe_at(pixel, x, y, probe, layer.surface.start, layer.surface.flat);
-    layers_.push_back(layer);
-    if (layer.surface.color.w() >= 0.99f) return;
+    const Shading::Surface surface = shading_.surface_at(hit, view_.eye, along);
+    const Probe probe{
+        surface.place, surface.smooth, {}, kSamePlane * pixel_size * hit.distance, false};
+    layers_.push_back(
+        {surface, probe_at(pixel, x, y, probe, surface.start, surface.flat), hit.distance});
+    if (surface.color.w() >= 0.99f) return;
     if (i + 1 == kMostLayers) break;
     hit = shading_.find(view_.eye, along, hit.distance * 1.00001f);
   }
@@ -109,20 +119,20 @@ std::uint32_t Tile::probe_at(Pixel& pixel, int x, int y, const Probe& wanted, co
 
 Shading::Light Tile::mean_light(const Probe& probe, int x, int y) const {
   Shading::Light sum;
-  for (int down = -kBorder; down <= kBorder; ++down)
-    for (int across = -kBorder; across <= kBorder; ++across) {
-      if (x + across < left_ || x + across >= right_ || y + down < top_ || y + down >= bottom_)
-        continue;
-      const float weight = kWeights[static_cast<std::size_t>(down + kBorder)] *
-                           kWeights[static_cast<std::size_t>(across + kBorder)];
-      const Pixel& pixel = pixel_at(x + across, y + down);
-      for (std::uint32_t i = 0; i < pixel.probe_count; ++i) {
-        const Probe& other = probes_[pixel.first_probe + i];
-        if (other.is_floor == probe.is_floor && other.normal.dot(probe.normal) > kSameNormal &&
-            std::abs(probe.normal.dot(other.place - probe.place)) < probe.reach)
-          sum.add(other.light, weight);
-      }
+  const int first_x = std::max(x - kBorder, left_), last_x = std::min(x + kBorder, right_ - 1),
+            first_y = std::max(y - kBorder, top_), last_y = std::min(y + kBorder, bottom_ - 1);
+  for (int row = first_y; row <= last_y; ++row) {
+    const float weight_of_row = kWeights[static_cast<std::size_t>(row - y + kBorder)];
+    const Pixel* pixel = &pixel_at(first_x, row);
+    for (int column = first_x; column <= last_x; ++column, ++pixel) {
+      const Probe* other = probes_.data() + pixel->first_probe;
+      for (const Probe* const end = other + pixel->probe_count; other != end; ++other)
+        if (other->is_floor == probe.is_floor && other->normal.dot(probe.normal) > kSameNormal &&
+            std::abs(probe.normal.dot(other->place - probe.place)) < probe.reach)
+          sum.add(other->light,
+                  weight_of_row * kWeights[static_cast<std::size_t>(column - x + kBorder)]);
     }
+  }
   return sum;
 }
 
@@ -135,10 +145,10 @@ void Tile::shade(int x, int y, std::size_t sample, Vec3f& color, float& depth) {
   float left = 1;
   for (std::uint32_t i = pixel.layers[sample]; i < pixel.layers[sample + 1]; ++i) {
     const Layer& layer = layers_[i];
-    const float alpha = layer.surface.color.w();
+    const float alpha = layer.look.color.w();
     if (alpha >= 0.5f) depth = std::min(depth, layer.depth);
     const Shading::Light& light = smooth_[layer.probe - pixel.first_probe];
-    color += left * alpha * shading_.shown(layer.surface, light, along);
+    color += left * alpha * shading_.shown(layer.look, light, along);
     left *= 1 - alpha;
   }
   if (!(left > 0)) return;
@@ -171,6 +181,7 @@ void Tile::draw(int left, int top, Picture& picture) {
         shade(x, y, sample, part.colors.emplace_back(), part.depths.emplace_back());
     }
   lay_marks(scene_.marks, part);
+  static const ByteOfLight as_byte;
   auto color = part.colors.begin();
   for (int y = top; y < bottom; ++y)
     for (int x = left; x < right; ++x) {

@@ -45,7 +45,7 @@ class Tile {
   };
   /// What a sample sees, behind the layers before; behind the last one is the backdrop.
   struct Layer {
-    Shading::Surface surface;
+    Shading::Look look;
     std::uint32_t probe = 0;
     float depth = 0;
   };
