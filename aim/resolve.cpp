@@ -1,6 +1,8 @@
 #include <sunder/aim/aim.h>
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "aim/facing.h"
 #include "aim/limb.h"
@@ -96,17 +98,31 @@ std::optional<double> share_that_hits(const aim::PosedSurface& surface, AimedOpe
   return {};
 }
 
+/// What else a sever that hits at no share might do. @param works_there  it cuts something at its
+/// own share
+std::string sever_advice(const aim::PosedSurface& surface, SeverOperation sever, Index bone,
+                         bool works_there) {
+  const std::vector<Bone>& bones = surface.character().skeleton.bones;
+  if (const Index parent = bones[bone].parent; parent != kNone) {
+    sever.place.bone = bones[parent].name;
+    if (share_that_hits(surface, sever))
+      return "; that of '" + sever.place.bone + "', which moves it, can be severed";
+  }
+  return works_there ? "; give one to sever it there all the same" : "";
+}
+
 /// The failure of an operation that hits at no share of its bone. @param fault  at its own share;
 /// ok for a sever that takes off less than most of the limb there.
-Status no_share(const aim::PosedSurface& surface, const AimedOperation& operation,
+Status no_share(const aim::PosedSurface& surface, const AimedOperation& operation, Index bone,
                 const Status& fault) {
-  if (!std::holds_alternative<SeverOperation>(operation)) return fault;
+  const auto* const sever = std::get_if<SeverOperation>(&operation);
+  if (sever == nullptr) return fault;
   const Status why = fault ? miss(surface, operation, true) : fault;
   return Status::failure(why.code(), why.index(),
                          "%s; no share of the bone was found at which most of the limb comes off "
                          "alone%s",
                          std::string(why.text()).c_str(),
-                         fault ? "; give one to sever it there all the same" : "");
+                         sever_advice(surface, *sever, bone, fault.is_ok()).c_str());
 }
 
 }  // namespace
@@ -126,10 +142,13 @@ Result<AimedOperation> at_nearest_share(const TornModel& model, const AimedOpera
     AimedOperation moved = operation;
     LimbPlace* const place = place_of(moved);
     const Result<Operation> here = std::visit(Resolve{*surface}, operation);
+    const Result<std::uint32_t> bone =
+        place == nullptr ? kNone : find_bone(surface->character().skeleton, place->bone);
+    if (!bone) return bone.error();
     if (place == nullptr || (!here && here.error().code() != StatusCode::not_found))
       return here ? Result<AimedOperation>(moved) : here.error();
     const std::optional<double> share = share_that_hits(*surface, operation);
-    if (!share) return no_share(*surface, operation, here ? Status() : here.error());
+    if (!share) return no_share(*surface, operation, *bone, here ? Status() : here.error());
     place->at = *share;
     return moved;
   });

@@ -483,7 +483,23 @@ TEST(NearestShare, moves_only_what_cannot_be_hit) {
   EXPECT_GT(share, 0.05);
   EXPECT_LE(share, 0.2);
   EXPECT_TRUE(resolve(model, sever_of("Other", share)));
-  EXPECT_FALSE(at_nearest_share(model, sever_of("nobody", 0)));
+  EXPECT_EQ(at_nearest_share(model, sever_of("nobody", 0)).error().text(),
+            find_bone(model.character().skeleton, "nobody").error().text());
+}
+
+TEST(NearestShare, names_the_bone_that_can_be_severed_instead) {
+  Character character = test::make_tube(60, 16, 3);
+  character.clips.clear();
+  const std::uint32_t helper = add_bone(character, "helper", 1, 1.8f);
+  weigh_by_place(character.meshes[0], [&](const Vec3f& at) {
+    if (at.y() > 1.97f) return kHand;
+    const bool is_of_helper = at.y() > 1.77f && at.x() < 0.49f;
+    return is_of_helper ? helper : at.y() > 0.97f ? 1u : 0u;
+  });
+  const TornModel model = make_model(std::move(character));
+  EXPECT_THAT(refusal_of(model, "helper"),
+              testing::HasSubstr("'bone1', which moves it, can be severed"));
+  EXPECT_TRUE(at_nearest_share(model, sever_of("bone1", 0)));
 }
 
 }  // namespace
