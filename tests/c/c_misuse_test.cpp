@@ -104,28 +104,6 @@ TEST(CMisuse, a_number_never_names_a_second_object) {
   EXPECT_DONE(sunder_destroy_character(character));
 }
 
-/// Objects that work together, for the pool of the arguments.
-template <class Arguments>
-void keep_new_objects(const sunder_character_data& data, Arguments& arguments) {
-  sunder_asset_options options = sunder_default_asset_options();
-  options.is_soft = 1;
-  sunder_character character = 0;
-  sunder_asset asset = 0;
-  sunder_scene scene = 0;
-  sunder_instance instance = 0;
-  EXPECT_DONE(sunder_create_character(&data, &character));
-  EXPECT_DONE(sunder_create_asset(character, &options, &asset));
-  EXPECT_DONE(sunder_create_scene(nullptr, &scene));
-  EXPECT_DONE(sunder_spawn(scene, asset, nullptr, &instance));
-  EXPECT_DONE(sunder_prepare_to_tear(scene, instance));
-  EXPECT_DONE(sunder_update(scene, 0.1));
-  arguments.clear();
-  arguments.keep("sunder_character", character);
-  arguments.keep("sunder_asset", asset);
-  arguments.keep("sunder_scene", scene);
-  arguments.keep("sunder_instance", instance);
-}
-
 TEST(CMisuse, random_calls_do_no_harm) {
   using Arguments = RandomArguments<Random>;
   constexpr auto& kAll = Calls<Arguments>::kAll;
@@ -137,7 +115,9 @@ TEST(CMisuse, random_calls_do_no_harm) {
     Random random(static_cast<std::uint64_t>(seed));
     Arguments arguments(random);
     for (int i = 0; i < 6000; ++i) {
-      if (i % 150 == 0) keep_new_objects(arrays.data, arguments);
+      if (i % 150 == 0) {
+        ASSERT_TRUE(keep_new_objects(arrays.data, arguments));
+      }
       const auto& [name, call] = kAll[random.index(static_cast<std::uint32_t>(std::size(kAll)))];
       arguments.begin_call();
       const sunder_status status = call(arguments);

@@ -26,8 +26,15 @@ class RandomArguments {
     clear();
   }
 
-  /// Forgets all handles.
-  void clear() { pool_ = {{"", 0}, {"", ~std::uint64_t{0}}}; }
+  RandomArguments(const RandomArguments&) = delete;
+  RandomArguments& operator=(const RandomArguments&) = delete;
+  ~RandomArguments() { destroy_all(); }
+
+  /// Destroys and forgets all objects that were kept.
+  void clear() {
+    destroy_all();
+    pool_ = {{"", 0}, {"", ~std::uint64_t{0}}};
+  }
 
   /// Memory for the next call.
   void begin_call() { next_block_ = 0; }
@@ -44,6 +51,7 @@ class RandomArguments {
     outputs_.clear();
   }
   void keep(const std::string& kind, std::uint64_t handle) {
+    kept_.emplace_back(kind, handle);
     if (pool_.size() < 64)
       pool_.emplace_back(kind, handle);
     else
@@ -109,13 +117,50 @@ class RandomArguments {
  private:
   static constexpr std::size_t kBlocks = 12, kBlockBytes = 64u << 10u;
 
+  /// The random calls may have destroyed some of them.
+  void destroy_all() {
+    for (const auto& [kind, handle] : kept_) {
+      const auto one = static_cast<std::uint32_t>(handle);
+      if (kind == "sunder_bytes") sunder_destroy_bytes(one);
+      if (kind == "sunder_character") sunder_destroy_character(one);
+      if (kind == "sunder_asset") sunder_destroy_asset(one);
+      if (kind == "sunder_scene") sunder_destroy_scene(one);
+      if (kind == "sunder_piece") sunder_destroy_piece(one);
+      if (kind == "sunder_report") sunder_destroy_report(one);
+    }
+    kept_.clear();
+  }
   std::byte* block() { return memory_[next_block_++ % kBlocks].data(); }
 
   Bits& bits_;
   std::vector<std::vector<std::byte>> memory_;
   std::size_t next_block_ = 0;
-  std::vector<std::pair<std::string, std::uint64_t>> pool_;
+  std::vector<std::pair<std::string, std::uint64_t>> pool_, kept_;
   std::vector<std::pair<std::string, std::size_t>> outputs_;
 };
+
+/// Objects that work together, in place of those that the arguments have had.
+/// @return whether all could be made.
+template <class Bits>
+bool keep_new_objects(const sunder_character_data& data, RandomArguments<Bits>& arguments) {
+  sunder_asset_options options = sunder_default_asset_options();
+  options.is_soft = 1;
+  sunder_character character = 0;
+  sunder_asset asset = 0;
+  sunder_scene scene = 0;
+  sunder_instance instance = 0;
+  const bool are_made = sunder_create_character(&data, &character) == SUNDER_OK &&
+                        sunder_create_asset(character, &options, &asset) == SUNDER_OK &&
+                        sunder_create_scene(nullptr, &scene) == SUNDER_OK &&
+                        sunder_spawn(scene, asset, nullptr, &instance) == SUNDER_OK &&
+                        sunder_prepare_to_tear(scene, instance) == SUNDER_OK &&
+                        sunder_update(scene, 0.1) == SUNDER_OK;
+  arguments.clear();
+  arguments.keep("sunder_character", character);
+  arguments.keep("sunder_asset", asset);
+  arguments.keep("sunder_scene", scene);
+  arguments.keep("sunder_instance", instance);
+  return are_made;
+}
 
 }  // namespace sunder::test
