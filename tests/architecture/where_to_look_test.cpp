@@ -1,4 +1,4 @@
-// Checks that each place exists that the table "to change … look in …" of docs/architecture.md
+// Checks that each place exists that the table "to change … look in …" of docs/where_to_look.md
 // names.
 
 #include <cstddef>
@@ -79,7 +79,7 @@ std::vector<std::string> missing_places(const fs::path& root, const Row& row) {
 
 TEST(WhereToLook, names_places_that_exist) {
   const fs::path root = SUNDER_SOURCE_DIR;
-  const std::vector<Row> rows = table_of(text_of(root / "docs/architecture.md"));
+  const std::vector<Row> rows = table_of(text_of(root / "docs/where_to_look.md"));
   EXPECT_GE(rows.size(), kFewestBehaviours);
   for (const Row& row : rows) EXPECT_THAT(missing_places(root, row), IsEmpty());
 }

@@ -282,7 +282,7 @@ TEST(FindingKinds, codes_are_unique_and_every_one_has_a_verdict) {
   }
 }
 
-/// The row of the table in docs/validation.md.
+/// The row of the table in docs/validation_codes.md.
 std::string row_of(const FindingKind& kind) {
   std::ostringstream row;
   row << "| `" << kind.code << "` | " << severity_name(kind.severity) << " | " << kind.threshold
@@ -293,7 +293,7 @@ std::string row_of(const FindingKind& kind) {
 
 TEST(FindingKinds, the_documentation_has_the_same_table) {
   std::ostringstream text;
-  text << std::ifstream(SUNDER_SOURCE_DIR "/docs/validation.md").rdbuf();
+  text << std::ifstream(SUNDER_SOURCE_DIR "/docs/validation_codes.md").rdbuf();
   std::size_t at = 0;
   for (const FindingKind& kind : finding_kinds()) {
     const std::size_t found = text.str().find(row_of(kind), at);

@@ -11,7 +11,7 @@ constexpr auto kWarning = Severity::warning;
 constexpr auto kNote = Severity::note;
 
 /// One row per code, in the order of Code: code, severity, unit, threshold, meaning, advice, code
-/// of the glTF Validator. docs/validation.md has the same rows.
+/// of the glTF Validator. docs/validation_codes.md has the same rows.
 constexpr std::array kTable = {
     FindingKind{"SUNDER_W_SUM", kError, "m/m", 2e-7,
                 "weights that do not sum to one; a vertex strays by this many metres per metre of "

@@ -38,7 +38,7 @@ struct FindingPlace {
 
 /// One kind of fault of a skin, aggregated over all vertices that have it.
 struct Finding {
-  /// Stable code, "SUNDER_W_SUM"; docs/validation.md lists all of them.
+  /// Stable code, "SUNDER_W_SUM"; docs/validation_codes.md lists all of them.
   std::string_view code;
   Severity severity = Severity::note;
   Evidence evidence = Evidence::exact;

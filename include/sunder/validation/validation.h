@@ -17,7 +17,7 @@
 
 namespace sunder {
 
-/// One row of the table of codes; docs/validation.md has the same rows.
+/// One row of the table of codes; docs/validation_codes.md has the same rows.
 struct FindingKind {
   std::string_view code;
   Severity severity = Severity::note;

@@ -17,8 +17,8 @@ _EVIDENCE = ('exact', 'certified', 'sampled', 'not_tested')
 
 @dataclass(frozen=True)
 class Finding:
-    """One kind of fault over all vertices that have it. mesh, vertex and bone name the worst place, of the target; docs/validation.md
-    has the codes."""
+    """One kind of fault over all vertices that have it. mesh, vertex and bone name the worst place, of the target;
+    docs/validation_codes.md lists the codes."""
     code: str
     severity: str
     evidence: str
