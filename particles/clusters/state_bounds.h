@@ -9,8 +9,8 @@ struct StateBounds {
   /// O(points + vertices).
   StateBounds(const Structure& decomposition, const TornModel& model);
 
-  /// Whether a point may be there in the decomposition's pose. Points that tears create lie between those of the
-  /// source, but for the curvature of linear blends.
+  /// Whether a point may be there in the decomposition's pose. Points that tears create lie between
+  /// those of the source, but for the curvature of linear blends.
   [[nodiscard]] bool is_place(const Vec3f& place) const {
     return ((place - middle).cwiseAbs().array() <= largest).all();
   }

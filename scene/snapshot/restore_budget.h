@@ -4,8 +4,8 @@
 
 namespace sunder::scene {
 
-/// Counts down what a snapshot may still use of RestoreOptions. The failures name the limit, and what was
-/// found.
+/// Counts down what a snapshot may still use of RestoreOptions. The failures name the limit, and
+/// what was found.
 class RestoreBudget {
  public:
   explicit RestoreBudget(const RestoreOptions& options)

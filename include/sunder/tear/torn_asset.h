@@ -18,8 +18,8 @@ namespace sunder {
 /// nothing is allocated at the start, and the model grows as needed up to the limits, which are
 /// checked after each segment of a stroke and after each other operation.
 struct TornCapacity {
-  std::uint32_t vertices = 0;   ///< Per mesh.
-  std::uint32_t triangles = 0;  ///< Per mesh.
+  std::uint32_t vertices = 0;    ///< Per mesh.
+  std::uint32_t triangles = 0;   ///< Per mesh.
   std::uint32_t operations = 0;  ///< kNone: any number.
 
   /// Whether memory is allocated at the start. All zero: the model grows as needed, and an

@@ -9,9 +9,9 @@
 
 namespace sunder::test {
 
-/// Checks what must hold in a scene after an update, whatever snapshot it was restored from: the vertices
-/// that it drew are finite, and the particles of these instances keep their laws. One sentence per
-/// fault.
+/// Checks what must hold in a scene after an update, whatever snapshot it was restored from: the
+/// vertices that it drew are finite, and the particles of these instances keep their laws. One
+/// sentence per fault.
 /// @param checks_cells  as of broken_particles(). Restoring compares the cells of now with the
 ///                      surface; of those to which undo leads only the range.
 std::vector<std::string> broken_scene(Scene& scene, bool checks_cells = true);
