@@ -855,6 +855,29 @@ typedef struct sunder_collider {
   double friction;    /* >= 0 */
 } sunder_collider;
 
+/* Limits of a tear by force: the smaller of the two lengths counts. */
+typedef struct sunder_force_tearing_options {
+  uint32_t struct_size;
+  uint32_t reserved;
+  double length; /* as a fraction of the particles' range, in (0, 2] */
+  double metres; /* > 0; for instance a speed times the time since the last call */
+} sunder_force_tearing_options;
+
+/* What the tissue bears, and where it gave way. */
+typedef struct sunder_force_tearing {
+  uint32_t struct_size;
+  uint32_t has_torn;
+  uint32_t is_from_tip; /* 1: it continues an older tear */
+  uint32_t vertices_added;
+  double greatest_stretch; /* around an awake particle whose material has a strength */
+  double greatest_release; /* energy, J/m, that a tip would release by running on */
+  double length;           /* of the tear on the posed surface */
+  double place[3];         /* where it begins, model space */
+  double direction[3];     /* of unit length */
+} sunder_force_tearing;
+
+SUNDER_C_API sunder_force_tearing_options sunder_default_force_tearing_options(void);
+
 /* These need a soft instance after sunder_prepare_to_tear() or its first operation: else
  * SUNDER_NOT_FOUND. */
 SUNDER_C_API sunder_status sunder_get_tissue(sunder_scene scene, sunder_instance instance,
@@ -879,6 +902,12 @@ SUNDER_C_API sunder_status sunder_move_hold(sunder_scene scene, sunder_instance 
                                             uint64_t hold, const double target[3]);
 SUNDER_C_API sunder_status sunder_release_hold(sunder_scene scene, sunder_instance instance,
                                                uint64_t hold);
+/* Tears at once, at one place at most, where tissue whose material has a strength or a toughness
+ * gives way in the pose of the last update; call it after an update. The tear is an operation like
+ * the others: the next update draws it, and it can be undone. */
+SUNDER_C_API sunder_status sunder_tear_overstretched(sunder_scene scene, sunder_instance instance,
+                                                     const sunder_force_tearing_options* options,
+                                                     sunder_force_tearing* found);
 /* Replaces all colliders. */
 SUNDER_C_API sunder_status sunder_set_colliders(sunder_scene scene, sunder_instance instance,
                                                 const sunder_collider* colliders, uint32_t count);

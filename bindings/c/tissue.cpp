@@ -55,6 +55,11 @@ using namespace sunder::c;
 
 extern "C" {
 
+sunder_force_tearing_options sunder_default_force_tearing_options(void) {
+  const sunder::ForceTearingOptions defaults;
+  return {sizeof(sunder_force_tearing_options), 0, defaults.length, defaults.metres};
+}
+
 sunder_status sunder_get_tissue(sunder_scene scene, sunder_instance instance,
                                 sunder_tissue_info* info) {
   return call_body(scene, instance, [&](const Found& found, sunder::SoftBody&) -> sunder_status {
@@ -137,6 +142,31 @@ sunder_status sunder_move_hold(sunder_scene scene, sunder_instance instance, uin
 sunder_status sunder_release_hold(sunder_scene scene, sunder_instance instance, uint64_t hold) {
   return call_body(scene, instance, [&](const Found&, sunder::SoftBody& body) {
     return report(body.release(hold));
+  });
+}
+
+sunder_status sunder_tear_overstretched(sunder_scene scene, sunder_instance instance,
+                                        const sunder_force_tearing_options* options,
+                                        sunder_force_tearing* found) {
+  return call_body(scene, instance, [&](const Found& of, sunder::SoftBody&) -> sunder_status {
+    SUNDER_C_TRY(check_options(options, "options"));
+    SUNDER_C_TRY(check_struct(found, "found"));
+    sunder::ForceTearingOptions limits;
+    if (options != nullptr) limits = {options->length, options->metres};
+    const auto torn = of.instance->tear_overstretched(limits);
+    if (!torn) return report(torn.error());
+    *found = {sizeof *found,
+              torn->has_torn ? 1u : 0u,
+              torn->is_from_tip ? 1u : 0u,
+              torn->tear.vertices_added,
+              torn->greatest_stretch,
+              torn->greatest_release,
+              torn->tear.length_posed,
+              {},
+              {}};
+    for (int i = 0; i < 3; ++i)
+      found->place[i] = torn->place[i], found->direction[i] = torn->direction[i];
+    return SUNDER_OK;
   });
 }
 

@@ -181,5 +181,59 @@ TEST(CTissue, tissue_follows_holds_and_colliders_as_in_the_library) {
   EXPECT_EQ(info.is_awake, 1u);
 }
 
+TEST(CTissue, tissue_tears_by_force_as_in_the_library) {
+  Twins twins(make_tube(24, 12, 6));
+  EXPECT_TRUE(twins.scene->find(twins.id)->prepare_to_tear());
+  EXPECT_DONE(sunder_prepare_to_tear(twins.c_scene, twins.c_id));
+  twins.update();
+  CharacterInstance& instance = *twins.scene->find(twins.id);
+  SoftMaterial weak = *find_material("skin");
+  weak.strength = 1.05;
+  sunder_material c_weak = sunder_default_material();
+  EXPECT_DONE(sunder_find_material("skin", &c_weak));
+  c_weak.strength = weak.strength;
+  EXPECT_TRUE(instance.body()->change_material(0, weak));
+  EXPECT_DONE(sunder_change_material(twins.c_scene, twins.c_id, 0, &c_weak));
+  std::uint32_t point = 0;
+  EXPECT_DONE(sunder_get_point(twins.c_scene, twins.c_id, 0, 140, &point));
+  const sunder_posed_mesh before = posed_mesh(twins.c_scene, twins.c_id, 0);
+  const Vec3d target = 2.0 * Eigen::Map<const Vec3f>(before.positions + 3 * 140).cast<double>();
+  std::uint64_t hold = 0;
+  EXPECT_DONE(sunder_hold_point(twins.c_scene, twins.c_id, point, target.data(), 1e5, &hold));
+  EXPECT_TRUE(instance.body()->hold_point(point, target, {.stiffness = 1e5}));
+
+  sunder_force_tearing_options options = sunder_default_force_tearing_options();
+  options.length = 1.0;
+  int tears = 0;
+  for (int frame = 0; frame < 60; ++frame) {
+    twins.update();
+    const auto expected = instance.tear_overstretched({.length = 1.0});
+    ASSERT_TRUE(expected);
+    sunder_force_tearing found = {};
+    found.struct_size = sizeof found;
+    EXPECT_DONE(sunder_tear_overstretched(twins.c_scene, twins.c_id, &options, &found));
+    EXPECT_EQ(found.has_torn, expected->has_torn ? 1u : 0u);
+    EXPECT_EQ(found.is_from_tip, expected->is_from_tip ? 1u : 0u);
+    EXPECT_EQ(found.vertices_added, expected->tear.vertices_added);
+    EXPECT_EQ(found.greatest_stretch, expected->greatest_stretch);
+    EXPECT_EQ(found.greatest_release, expected->greatest_release);
+    EXPECT_EQ(found.length, expected->tear.length_posed);
+    EXPECT_EQ(Vec3d(found.place), expected->place);
+    EXPECT_EQ(Vec3d(found.direction), expected->direction);
+    tears += found.has_torn != 0;
+  }
+  EXPECT_GT(tears, 1);
+  twins.update();
+  twins.expect_same();
+
+  sunder_force_tearing found = {};
+  EXPECT_EQ(sunder_tear_overstretched(twins.c_scene, twins.c_id, &options, &found),
+            SUNDER_INVALID_STRUCT);
+  found.struct_size = sizeof found;
+  options.length = -1.0;
+  EXPECT_EQ(sunder_tear_overstretched(twins.c_scene, twins.c_id, &options, &found),
+            SUNDER_INVALID_ARGUMENT);
+}
+
 }  // namespace
 }  // namespace sunder::test

@@ -1,5 +1,5 @@
 // One character in a scene.
-import { SUNDER_IN_BACKGROUND, sunder_bore, sunder_collider, sunder_contact, sunder_cut, sunder_detach, sunder_layer_options, sunder_save_options, sunder_stroke_sampling, sunder_tear_options } from '../generated/calls.js';
+import { SUNDER_IN_BACKGROUND, sunder_bore, sunder_collider, sunder_contact, sunder_cut, sunder_detach, sunder_force_tearing_options, sunder_layer_options, sunder_save_options, sunder_stroke_sampling, sunder_tear_options } from '../generated/calls.js';
 import { Hold, Layer, Stroke } from './handles_of_tissue.js';
 import { takeBytes, takeText } from './made_bytes.js';
 import { materialOf } from './materials.js';
@@ -164,6 +164,10 @@ export class Instance {
   set gravity(gravity) { this.#call('sunder_set_gravity', triple(gravity, 'gravity')); }
   setTension(newtonsPerMetre, { addsPoseStrain = false } = {}) { this.#call('sunder_set_tension', newtonsPerMetre, addsPoseStrain ? 1 : 0); }
   setMaterial(material, index = 0) { this.#call('sunder_change_material', index, materialOf(this.#calls, material)); }
+  /** Tears at once, at one place at most, where tissue gives way; after an update. The next one draws it. */
+  tearOverstretched(options = {}) {
+    return namesOf(this.#change('sunder_tear_overstretched', fieldsOf(sunder_force_tearing_options, options)));
+  }
   /** Replaces all colliders. @param colliders  { shape, size, place, rotation, friction } each */
   setColliders(colliders) {
     this.#call('sunder_set_colliders', colliders.map(({ rotation = [0, 0, 0, 1], size = [0, 0, 0], ...others }) => ({

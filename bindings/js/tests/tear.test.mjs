@@ -125,6 +125,29 @@ test('held tissue follows its hold, a wound under tension gapes, and both come t
   assert.equal(it.tissue.isAwake, false);
 });
 
+test('pulled tissue gives way where it is weak, and each tear can be undone', async () => {
+  const { scene, it } = await tube({ soft: 'skin' });
+  it.prepareToTear();
+  scene.update(1 / 60);
+  it.setMaterial({ base: 'skin', strength: 1.05 });
+  const { place, ...contact } = it.raycast([0.2, 1, 2], [0, 0, -1]);
+  it.hold(contact, [2 * place[0], place[1], 2 * place[2]], { stiffness: 1e5 });
+  const whole = it.digest;
+  let tears = 0;
+  for (let i = 0; i < 60; ++i) {
+    scene.update(1 / 60);
+    const found = it.tearOverstretched({ length: 1 });
+    assert.ok(found.greatestStretch >= 1);
+    assert.equal(found.hasTorn, found.length > 0);
+    tears += found.hasTorn;
+  }
+  assert.ok(tears > 0);
+  for (let i = 0; i < tears; ++i) it.undo();
+  scene.update(1 / 60);
+  assert.equal(it.digest, whole);
+  assert.throws(() => it.tearOverstretched({ length: -1 }), { code: 'invalid_argument' });
+});
+
 test('a snapshot goes on with the same bits, in its scene and in another one', async () => {
   const { model, scene, it } = await tube({ tension: 5 });
   it.play('Bend');

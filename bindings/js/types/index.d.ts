@@ -174,6 +174,10 @@ export interface Contact {
   place: number[]; normal: number[]; distance: number; depth: number; barycentric: number[];
   mesh: number; triangle: number; submesh: number; material: number; bone: number; enters: number;
 }
+export interface ForceTearing {
+  hasTorn: boolean; isFromTip: boolean; verticesAdded: number; greatestStretch: number; greatestRelease: number;
+  length: number; place: number[]; direction: number[];
+}
 export interface Collider {
   shape: 'sphere' | 'capsule' | 'box' | 'halfSpace'; size?: Vector3Like; place?: Vector3Like; rotation?: QuaternionLike; friction?: number;
 }
@@ -213,6 +217,7 @@ export class Instance {
   set gravity(metresPerSecondSquared: Vector3Like);
   setTension(newtonsPerMetre: number, options?: { addsPoseStrain?: boolean }): void;
   setMaterial(material: MaterialLike, index?: number): void;
+  tearOverstretched(options?: { length?: number; metres?: number }): ForceTearing;
   setColliders(colliders: Collider[]): void;
   moveCollider(collider: number, place: Vector3Like, rotation?: QuaternionLike): void;
   inheritMotion(piece: Piece): void;

@@ -97,6 +97,33 @@ def test_a_held_point_follows(soft):
     assert np.linalg.norm(instance.posed().positions[vertex] - start) < 1e-3 * diagonal(posed.positions)
 
 
+def test_pulled_tissue_gives_way_where_it_is_weak(tube):
+    scene = sunder_tear.Scene(threads=1)
+    weak = sunder_tear.material('skin', strength=1.02)
+    instance = scene.spawn(sunder_tear.Asset(tube, soft=True, materials=[weak]))
+    instance.prepare_to_tear()
+    scene.update()
+    whole = instance.digest
+    posed = instance.posed()
+    vertex = int(posed.triangles[len(posed.triangles) // 2, 0])
+    middle = posed.positions.mean(axis=0).astype(np.float64)
+    place = middle + 2 * (posed.positions[vertex] - middle)
+    instance.hold(instance.point_at(0, vertex), place, stiffness=1e5)
+    tears = 0
+    for _ in range(60):
+        scene.update(1 / 60)
+        found = instance.tear_overstretched(length=1.0)
+        assert found.greatest_stretch >= 1 and found.has_torn == (found.length > 0)
+        tears += found.has_torn
+    assert tears > 0
+    for _ in range(tears):
+        instance.undo()
+    scene.update()
+    assert instance.digest == whole
+    with pytest.raises(sunder_tear.SunderError, match='length'):
+        instance.tear_overstretched(length=-1)
+
+
 def test_a_ray_meets_the_drawn_surface(soft):
     _, instance = soft
     posed = instance.posed()

@@ -141,6 +141,21 @@ def _contact(raw) -> Contact:
                    bool(raw.enters))
 
 
+@dataclass(frozen=True)
+class ForceTearing:
+    """What the tissue bears, and where it gave way. greatest_stretch: around moving tissue whose material has a
+    strength; greatest_release: the energy, J/m, that the end of a tear would release by running on; length, place and
+    direction: of the tear, if has_torn."""
+    has_torn: bool
+    is_from_tip: bool
+    vertices_added: int
+    greatest_stretch: float
+    greatest_release: float
+    length: float
+    place: tuple
+    direction: tuple
+
+
 class Instance:
     """A character in a scene; made by Scene.spawn(). Operations are submitted, and applied by the next Scene.update() in the pose
     that the instance then has. Places are in model space, in metres."""
@@ -356,6 +371,16 @@ class Instance:
 
     def set_tension(self, newtons_per_metre: float, adds_pose_strain: bool = False) -> None:
         self._call('set_tension', newtons_per_metre, int(adds_pose_strain))
+
+    def tear_overstretched(self, length: float = 0.5, metres: float = float('inf')) -> ForceTearing:
+        """Tears at once, at one place at most, where tissue whose material has a strength or a toughness gives way in
+        the pose of the last update. length: at most this fraction of the particles' range; metres: at most so long. The
+        next update draws the tear; it can be undone."""
+        options = abi.new('force_tearing_options', length=length, metres=metres)
+        found = abi.new('force_tearing')
+        self._call('tear_overstretched', ctypes.byref(options), ctypes.byref(found))
+        return ForceTearing(bool(found.has_torn), bool(found.is_from_tip), found.vertices_added, found.greatest_stretch,
+                            found.greatest_release, found.length, tuple(found.place), tuple(found.direction))
 
     def cast_ray(self, origin, direction, length: float = 1e9) -> Optional[Contact]:
         """The first place where a ray meets the surface as it was drawn last."""
