@@ -27,7 +27,7 @@ class CallbackFiles : public FileResolver {
     if (status != SUNDER_OK || (data == nullptr && size > 0))
       return Status::failure(StatusCode::file_not_found, kNone, "the program has no such file");
     const Release release{options_, data};
-    if (size > options_.maximum_bytes)
+    if (size > options_.maximum_bytes || check_size(size, "size") != SUNDER_OK)
       return Status::failure(StatusCode::limit_exceeded, kNone,
                              "%llu bytes exceed sunder_load_options.maximum_bytes",
                              static_cast<unsigned long long>(size));
@@ -127,6 +127,7 @@ sunder_status sunder_load_glb(const void* bytes, uint64_t size, const sunder_loa
   return guarded([&]() -> sunder_status {
     SUNDER_C_TRY(check_options(options, "options"));
     if (bytes == nullptr) return null_pointer("bytes");
+    SUNDER_C_TRY(check_size(size, "size"));
     if (character == nullptr) return null_pointer("character");
     const sunder_load_options given = options == nullptr ? sunder_default_load_options() : *options;
     sunder::ReadOptions reading;

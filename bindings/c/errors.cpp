@@ -3,6 +3,7 @@
 #include <cstdarg>
 #include <cstdio>
 #include <cstring>
+#include <limits>
 
 namespace sunder::c {
 namespace {
@@ -33,6 +34,12 @@ sunder_status report(const Status& status) {
 
 sunder_status null_pointer(const char* name) {
   return fail(SUNDER_NULL_POINTER, kNone, "`%s` is null", name);
+}
+
+sunder_status check_size(std::uint64_t size, const char* name) {
+  if (size <= std::numeric_limits<std::size_t>::max() / 2) return SUNDER_OK;
+  return fail(SUNDER_LIMIT_EXCEEDED, kNone, "`%s` is %llu bytes, more than memory can hold", name,
+              static_cast<unsigned long long>(size));
 }
 
 }  // namespace sunder::c

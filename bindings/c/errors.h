@@ -3,6 +3,7 @@
 #include <sunder/core/status.h>
 
 #include <new>
+#include <stdexcept>
 #include <sunder_c.h>
 
 namespace sunder::c {
@@ -16,12 +17,18 @@ sunder_status report(const Status& status);
 
 sunder_status null_pointer(const char* name);
 
+/// Refuses a size that exceeds the memory of the platform: where that has 32 bits, it would count
+/// as a small one.
+sunder_status check_size(std::uint64_t size, const char* name);
+
 /// Runs the body of a call; no exception leaves it.
 template <class Body>
 sunder_status guarded(Body&& body) noexcept {
   try {
     return body();
   } catch (const std::bad_alloc&) {
+    return fail(SUNDER_LIMIT_EXCEEDED, kNone, "out of memory");
+  } catch (const std::length_error&) {  // of a vector that no memory of this platform can hold
     return fail(SUNDER_LIMIT_EXCEEDED, kNone, "out of memory");
   } catch (const std::exception& error) {
     return fail(SUNDER_INTERNAL_ERROR, kNone, "%s", error.what());

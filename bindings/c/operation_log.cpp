@@ -16,6 +16,7 @@ sunder_status sunder_apply_log(sunder_scene scene, sunder_instance instance, con
     Found found;
     SUNDER_C_TRY(find_instance(scene, instance, found));
     if (json == nullptr) return null_pointer("json");
+    SUNDER_C_TRY(check_size(size, "size"));
     const auto operations = sunder::parse_operations(std::string_view(json, size));
     if (!operations) return report(operations.error());
     ++found.scene->change;

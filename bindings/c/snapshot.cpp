@@ -37,6 +37,7 @@ sunder_status sunder_restore_scene(sunder_scene scene, const void* snapshot, uin
     if (object == nullptr) return SUNDER_INVALID_HANDLE;
     SUNDER_C_TRY(check_options(options, "options"));
     if (snapshot == nullptr) return null_pointer("snapshot");
+    SUNDER_C_TRY(check_size(size, "size"));
     if (assets == nullptr && asset_count > 0) return null_pointer("assets");
     std::vector<std::shared_ptr<const AssetParts>> parts;
     std::vector<std::shared_ptr<const sunder::CharacterAsset>> given;
