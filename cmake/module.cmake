@@ -1,3 +1,5 @@
+set(SUNDER_FRAME_OPTIMISATION -O3 CACHE STRING "How release builds optimise the modules that run within a frame")
+
 # sunder_module(<name> [IN_FRAME] HEADERS <public headers, relative to include/> SOURCES <files> [LINK <modules below>]
 #               [PRIVATE_LINK <third parties>])
 #
@@ -49,7 +51,7 @@ function(sunder_module name)
   endif()
   sunder_compile_options(${target})
   if(arg_IN_FRAME)
-    target_compile_options(${target} PRIVATE $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU,Clang,AppleClang>>:-O3>)
+    target_compile_options(${target} PRIVATE $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU,Clang,AppleClang>>:${SUNDER_FRAME_OPTIMISATION}>)
   endif()
   set_property(GLOBAL APPEND PROPERTY SUNDER_MODULES ${target})
 endfunction()

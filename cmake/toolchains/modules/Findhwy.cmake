@@ -1,0 +1,10 @@
+# Highway's headers, which are all that one instruction set needs, without the machine's other headers.
+find_path(hwy_HEADERS hwy/highway.h PATHS /usr/include NO_CMAKE_FIND_ROOT_PATH)
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(hwy REQUIRED_VARS hwy_HEADERS)
+if(hwy_FOUND AND NOT TARGET hwy::hwy)
+  file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/highway)
+  file(CREATE_LINK ${hwy_HEADERS}/hwy ${CMAKE_BINARY_DIR}/highway/hwy SYMBOLIC)
+  add_library(hwy::hwy INTERFACE IMPORTED)
+  target_include_directories(hwy::hwy INTERFACE ${CMAKE_BINARY_DIR}/highway)
+endif()
