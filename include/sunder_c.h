@@ -560,7 +560,7 @@ typedef struct sunder_posed_mesh {
   uint32_t triangle_write_count;
   uint32_t initial_triangle_count;    /* not 0: the index buffer starts anew with these triangles */
   uint64_t epoch;                     /* to be passed as `seen` next time */
-  const float* positions;             /* 3 per vertex, model space */
+  const float* positions;             /* 3 per vertex, model space; null before an update */
   const float* normals;               /* 3 per vertex, or null */
   const float* tangents;              /* 4 per vertex, or null */
   const sunder_draw_range* ranges;    /* one draw call each */

@@ -1,6 +1,7 @@
 /* Prints what the same operations make of a model, as hashes of all bits: the torn model, the posed
- * vertices, and both after 100 frames in which clips play and tissue moves. Programs of all
- * platforms print the same. print_digests FOLDER COUNT: FOLDER/0.glb with FOLDER/0.json, 1.glb ...
+ * vertices, both after 100 frames in which clips play and tissue moves, and what a restored
+ * snapshot is after a stroke over frames, an undo and tears by force. Programs of all platforms
+ * print the same. print_digests FOLDER COUNT: FOLDER/0.glb with FOLDER/0.json, 1.glb ...
  */
 
 #include <stdio.h>
@@ -52,12 +53,55 @@ static uint64_t digest_of(sunder_scene scene, sunder_instance who) {
   return digest;
 }
 
+/* A stroke with walls over 8 frames, from side to side through the middle of the model, of which
+ * the half is undone; then tissue tears by force. */
+static void go_on(sunder_scene scene, sunder_instance who) {
+  float low[3], high[3];
+  sunder_posed_mesh mesh;
+  sunder_blade blade;
+  sunder_tear_options options = sunder_default_tear_options();
+  sunder_force_tearing found = {sizeof found, 0, 0, 0, 0, 0, 0, {0, 0, 0}, {0, 0, 0}};
+  mesh.struct_size = sizeof mesh;
+  check(sunder_update(scene, 1.0 / 64));
+  check(sunder_get_posed_mesh(scene, who, 0, 0, &mesh));
+  for (int i = 0; i < 3; ++i) low[i] = high[i] = mesh.positions[i];
+  for (uint32_t v = 1; v < mesh.vertex_count; ++v)
+    for (uint32_t i = 0; i < 3; ++i) {
+      const float at = mesh.positions[3 * v + i];
+      if (at < low[i]) low[i] = at;
+      if (at > high[i]) high[i] = at;
+    }
+  options.width = 0.01 * (high[0] - low[0]);
+  options.wall_depth = 0.02 * (high[0] - low[0]);
+  for (int frame = 0; frame < 16; ++frame) {
+    const double along = frame % 8 / 7.0;
+    for (int i = 0; i < 3; ++i) blade.base[i] = blade.tip[i] = 0.5 * (low[i] + high[i]);
+    blade.base[0] = blade.tip[0] = low[0] + (0.2 + 0.6 * along) * (high[0] - low[0]);
+    blade.base[1] += (frame / 8 - 0.5) * 0.3 * (high[1] - low[1]);
+    blade.tip[1] = blade.base[1];
+    blade.base[2] = high[2] + (high[2] - low[2]);
+    if (frame % 8 == 0)
+      check(sunder_submit_begin_stroke(scene, who, &blade, &options, NULL, NULL));
+    else
+      check(sunder_submit_extend_stroke(scene, who, &blade, 1.0 / 64, NULL));
+    if (frame % 8 == 7) check(sunder_submit_end_stroke(scene, who, NULL));
+    check(sunder_update(scene, 1.0 / 64));
+  }
+  check(sunder_submit_undo(scene, who, NULL));
+  for (int frame = 0; frame < 8; ++frame) {
+    check(sunder_update(scene, 1.0 / 64));
+    check(sunder_tear_overstretched(scene, who, NULL, &found));
+  }
+  check(sunder_update(scene, 1.0 / 64));
+}
+
 static void print_case(const char* folder, int number) {
   sunder_character character;
   sunder_asset asset;
-  sunder_scene scene;
+  sunder_scene scene, again;
   sunder_instance who;
   sunder_bytes snapshot;
+  sunder_material weak = sunder_default_material();
   const uint8_t* bytes;
   uint64_t model_size, log_size, size;
   uint32_t applied = 0;
@@ -65,6 +109,10 @@ static void print_case(const char* folder, int number) {
   sunder_asset_options options = sunder_default_asset_options();
   char* model = read_file(folder, number, "glb", &model_size);
   char* log = read_file(folder, number, "json", &log_size);
+  check(sunder_find_material("skin", &weak));
+  weak.strength = 1.2;
+  options.materials = &weak;
+  options.material_count = 1;
   options.is_soft = 1;
   options.tension = 2.0;
   options.gravity[1] = -9.81;
@@ -83,8 +131,14 @@ static void print_case(const char* folder, int number) {
   for (int frame = 0; frame < 100; ++frame) check(sunder_update(scene, 1.0 / 64));
   check(sunder_save_scene(scene, &snapshot));
   check(sunder_get_bytes(snapshot, &bytes, &size));
-  printf(" %016llx %016llx\n", (unsigned long long)hash_meshes(scene, who, data.mesh_count),
+  printf(" %016llx %016llx", (unsigned long long)hash_meshes(scene, who, data.mesh_count),
          (unsigned long long)hash_bytes(14695981039346656037ull, bytes, size));
+  check(sunder_create_scene(NULL, &again));
+  check(sunder_restore_scene(again, bytes, size, &asset, 1, NULL));
+  go_on(again, who);
+  const uint64_t torn = digest_of(again, who), posed = hash_meshes(again, who, data.mesh_count);
+  printf(" %016llx\n", (unsigned long long)(torn ^ (posed * 0x9E3779B97F4A7C15ull)));
+  check(sunder_destroy_scene(again));
   check(sunder_destroy_bytes(snapshot));
   check(sunder_destroy_scene(scene));
   check(sunder_destroy_asset(asset));
