@@ -124,6 +124,29 @@ Status check_vertex(const VertexSource& source, std::size_t slot_count, std::uin
 
 bool is_zero(const Vec3f& value) { return value == Vec3f::Zero(); }
 
+/// The slots of a vertex as one number, so that most pairs of vertices are compared at once.
+struct FirstSlots {
+  std::uint64_t slots = 0;  ///< Up to four numbers of 16 bits, 0 beyond the last slot.
+  std::uint32_t vertex = 0;
+  bool are_all = true;
+};
+
+/// @param slots  ascending.
+FirstSlots first_slots(std::span<const std::uint32_t> slots, std::uint32_t vertex) {
+  constexpr std::size_t kMost = 4, kBits = 16;
+  constexpr std::uint32_t kLarge = (1u << kBits) - 1;
+  FirstSlots of{0, vertex, slots.size() <= kMost};
+  for (std::size_t i = 0; i < std::min(kMost, slots.size()); ++i) {
+    const bool is_large = slots[i] >= kLarge - 1;
+    const std::uint64_t number = is_large ? kLarge : slots[i] + 1;
+    of.slots |= number << (kBits * (kMost - 1 - i));
+    if (!is_large) continue;
+    of.are_all = false;  // nor does what follows count
+    break;
+  }
+  return of;
+}
+
 }  // namespace
 
 Status check_source(const VertexSource& source, std::size_t slot_count, std::uint32_t first) {
@@ -171,28 +194,41 @@ void BlockBuilder::append_in_order(std::uint32_t first, std::uint32_t end) {
   }
 }
 
-void BlockBuilder::append_gathered(std::uint32_t first, std::uint32_t end) {
-  order_.resize(end - first);
-  std::iota(order_.begin(), order_.end(), first);
-  // Sorted by the slots of each vertex, then by the vertex.
+/// Sets gathered_ to the vertices from `first` on, sorted by their slots, then by the vertex.
+void BlockBuilder::gather_by_slots(std::uint32_t first) {
   std::vector<std::uint32_t> keys, key_first;
+  keys.reserve(4 * order_.size());
+  key_first.reserve(order_.size() + 1);
+  std::vector<FirstSlots> vertices;
+  vertices.reserve(order_.size());
   for (const std::uint32_t v : order_) {
     key_first.push_back(static_cast<std::uint32_t>(keys.size()));
     for_each_influence(source_, v, [&](std::uint32_t slot, float) { keys.push_back(slot); });
-    std::sort(keys.begin() + key_first.back(), keys.end());
+    const auto begin = keys.begin() + key_first.back();
+    std::sort(begin, keys.end());
+    vertices.push_back(first_slots(std::span<const std::uint32_t>(begin, keys.end()), v));
   }
   key_first.push_back(static_cast<std::uint32_t>(keys.size()));
   const auto slots_of = [&](std::uint32_t v) {
     return std::span<const std::uint32_t>(keys.data() + key_first[v - first],
                                           keys.data() + key_first[v - first + 1]);
   };
-  gathered_ = order_;
-  std::sort(gathered_.begin(), gathered_.end(), [&](std::uint32_t a, std::uint32_t b) {
-    const auto of_a = slots_of(a), of_b = slots_of(b);
+  std::sort(vertices.begin(), vertices.end(), [&](const FirstSlots& a, const FirstSlots& b) {
+    if (a.slots != b.slots) return a.slots < b.slots;
+    if (a.are_all && b.are_all) return a.vertex < b.vertex;
+    const auto of_a = slots_of(a.vertex), of_b = slots_of(b.vertex);
     const auto order =
         std::lexicographical_compare_three_way(of_a.begin(), of_a.end(), of_b.begin(), of_b.end());
-    return order != 0 ? order < 0 : a < b;
+    return order != 0 ? order < 0 : a.vertex < b.vertex;
   });
+  gathered_.clear();
+  for (const FirstSlots& of : vertices) gathered_.push_back(of.vertex);
+}
+
+void BlockBuilder::append_gathered(std::uint32_t first, std::uint32_t end) {
+  order_.resize(end - first);
+  std::iota(order_.begin(), order_.end(), first);
+  gather_by_slots(first);
   if (work(order_, false) <= work(gathered_, true)) {
     append_in_order(first, end);
     return;

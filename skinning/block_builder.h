@@ -26,6 +26,7 @@ class BlockBuilder {
   void append_gathered(std::uint32_t first, std::uint32_t end);
 
  private:
+  void gather_by_slots(std::uint32_t first);
   void append_block(const std::uint32_t* vertices, std::uint32_t count, std::uint32_t window);
   void find_slots(const std::uint32_t* vertices, std::uint32_t count);
   void append_attributes(const std::uint32_t* vertices, std::uint32_t count);

@@ -62,15 +62,15 @@ Filling::Filling(const char* name, const Workpiece& work, Index material)
       material_(material),
       work_(work),
       submeshes_(&work.editor.scratch()),
-      normal_matrices_(&work.editor.scratch()) {
+      normal_matrices_(&work.editor.scratch()),
+      blend_{kNone, ScratchVector<Influence>(&work.editor.scratch()), {}, {}} {
   submeshes_.reserve(work.editor.character().meshes.size());
 }
 
-Vec3d to_bind(const Mat3d& posed_from_bind, const Vec3d& posed, const Vec3d& fallback) {
+BindFromPosed::BindFromPosed(const Mat3d& posed_from_bind) : inverse_(Mat3d::Zero()) {
   const double size = norm(posed_from_bind);
-  if (!(std::abs(determinant(posed_from_bind)) > kNoInverseDeterminant * size * size * size))
-    return fallback;
-  return multiply(inverse(posed_from_bind), posed);
+  is_regular_ = std::abs(determinant(posed_from_bind)) > kNoInverseDeterminant * size * size * size;
+  if (is_regular_) inverse_ = inverse(posed_from_bind);
 }
 
 Index Filling::add_rim_vertex(Index mesh, Index corner) {
@@ -90,13 +90,34 @@ Index Filling::add_inner_vertex(Index mesh, Index like, const Inner& inner) {
   return vertex;
 }
 
-Mat3d Filling::blended(Index mesh, Index vertex) const {
-  const Mesh& of = work_.editor.character().meshes[mesh];
+Filling::Blend& Filling::blend_of(Index mesh, Index vertex) {
+  const Index skin = work_.editor.character().meshes[mesh].skin;
+  const std::span<const Influence> influences = work_.editor.births.influences(mesh, vertex);
+  if (blend_.skin == skin && std::ranges::equal(blend_.influences, influences)) return blend_;
+  blend_.skin = skin;
+  blend_.influences.assign(influences.begin(), influences.end());
+  blend_.of_places.reset();
+  blend_.of_normals.reset();
+  return blend_;
+}
+
+const BindFromPosed& Filling::bind_from_posed(Index mesh, Index vertex) {
+  Blend& blend = blend_of(mesh, vertex);
+  if (blend.of_places) return *blend.of_places;
   Mat3d linear = Mat3d::Zero();
-  for (const Influence& influence : work_.editor.births.influences(mesh, vertex))
+  for (const Influence& influence : blend.influences)
     linear += static_cast<double>(influence.weight) *
-              work_.posed.pose().palette(of.skin)[influence.slot].linear();
-  return linear;
+              work_.posed.pose().palette(blend.skin)[influence.slot].linear();
+  return blend.of_places.emplace(linear);
+}
+
+const BindFromPosed& Filling::bind_from_posed_normals(Index mesh, Index vertex) {
+  Blend& blend = blend_of(mesh, vertex);
+  if (blend.of_normals) return *blend.of_normals;
+  Mat3d linear = Mat3d::Zero();
+  for (const Influence& influence : blend.influences)
+    linear += static_cast<double>(influence.weight) * normal_matrix(blend.skin, influence.slot);
+  return blend.of_normals.emplace(linear);
 }
 
 const Mat3d& Filling::normal_matrix(Index skin, Index slot) {
@@ -113,16 +134,12 @@ const Mat3d& Filling::normal_matrix(Index skin, Index slot) {
 void Filling::shade(Index mesh, Index vertex, const Vec3d& normal, const Vec3d& tangent,
                     const Vec2d& uv) {
   Mesh& of = work_.editor.mutable_mesh(mesh);
-  Mat3d posed_from_bind_of_normals = Mat3d::Zero();
-  for (const Influence& influence : work_.editor.births.influences(mesh, vertex))
-    posed_from_bind_of_normals +=
-        static_cast<double>(influence.weight) * normal_matrix(of.skin, influence.slot);
-  Vec3d bind_normal = to_bind(posed_from_bind_of_normals, normal, normal);
+  Vec3d bind_normal = bind_from_posed_normals(mesh, vertex).apply(normal, normal);
   bind_normal =
       norm(bind_normal) > kShortestDirection ? Vec3d(bind_normal / norm(bind_normal)) : normal;
   if (!of.normals.empty()) of.normals[vertex] = bind_normal.cast<float>();
   if (!of.tangents.empty()) {
-    Vec3d bind_tangent = to_bind(blended(mesh, vertex), tangent, tangent);
+    Vec3d bind_tangent = to_bind(mesh, vertex, tangent);
     bind_tangent -= dot(bind_normal, bind_tangent) * bind_normal;
     if (!(norm(bind_tangent) > kDirectionLengths * norm(tangent)))
       bind_tangent = bind_normal.unitOrthogonal();

@@ -1,13 +1,30 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <string>
 
+#include "core/internal/ordered.h"
 #include "tear/filling/wall_ends.h"
 #include "tear/posed/workpiece.h"
 
 namespace sunder::tear {
+
+/// Transforms posed directions and displacements to bind space.
+class BindFromPosed {
+ public:
+  /// @param posed_from_bind  the linear part of blended matrices.
+  explicit BindFromPosed(const Mat3d& posed_from_bind);
+  /// @return `fallback` if the matrices are nearly singular.
+  [[nodiscard]] Vec3d apply(const Vec3d& posed, const Vec3d& fallback) const {
+    return is_regular_ ? Vec3d(multiply(inverse_, posed)) : fallback;
+  }
+
+ private:
+  bool is_regular_;
+  Mat3d inverse_;
+};
 
 /// Adds triangles that close an opening. Their vertices take position and weights from the rim and
 /// have their own normals, tangents and texture coordinates. Temporary data lie in the scratch
@@ -33,8 +50,11 @@ class Filling {
   /// The same for a vertex that has the position and weights of another one, but faces in the
   /// opposite direction.
   void shade_from_behind(Index mesh, Index vertex, Index other, const Vec2d& uv);
-  /// Linear part of the blended bone matrices of a vertex.
-  [[nodiscard]] Mat3d blended(Index mesh, Index vertex) const;
+  /// Transforms a posed displacement at a vertex to bind space; returns it as it is if the linear
+  /// part of the blended bone matrices is nearly singular.
+  [[nodiscard]] Vec3d to_bind(Index mesh, Index vertex, const Vec3d& posed) {
+    return bind_from_posed(mesh, vertex).apply(posed, posed);
+  }
 
   /// @param like_corner  a corner of the rim; the filling uses the material of its submesh.
   void add_triangle(Index mesh, Index like_corner, const std::array<Index, 3>& points,
@@ -60,7 +80,18 @@ class Filling {
     bool is_known = false;
   };
 
+  /// The inverses of the blended matrices of a vertex, of which the next vertex is likely to have
+  /// the same.
+  struct Blend {
+    Index skin = kNone;
+    ScratchVector<Influence> influences;
+    std::optional<BindFromPosed> of_places, of_normals;  ///< Computed when they are needed.
+  };
+
   [[nodiscard]] const Mat3d& normal_matrix(Index skin, Index slot);
+  [[nodiscard]] Blend& blend_of(Index mesh, Index vertex);
+  [[nodiscard]] const BindFromPosed& bind_from_posed(Index mesh, Index vertex);
+  [[nodiscard]] const BindFromPosed& bind_from_posed_normals(Index mesh, Index vertex);
 
   const char* name_;
   Index material_;
@@ -68,11 +99,7 @@ class Filling {
   ScratchVector<FillingSubmesh> submeshes_;
   ScratchVector<NormalMatrix> normal_matrices_;  ///< By slot of the skin used last.
   Index skin_ = kNone;
+  Blend blend_;  ///< Of the vertex used last.
 };
-
-/// Transforms a posed direction or displacement to bind space by the linear part of the blended
-/// matrices; returns `fallback` if that is nearly singular.
-[[nodiscard]] Vec3d to_bind(const Mat3d& posed_from_bind, const Vec3d& posed,
-                            const Vec3d& fallback);
 
 }  // namespace sunder::tear

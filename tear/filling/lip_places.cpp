@@ -218,21 +218,45 @@ class RimPlaces {
     b.lean = std::min(b.lean, most);
   }
 
+  /// The ways on which a place looks for room.
+  struct Ways {
+    Vec3d straight, leaning;
+  };
+  [[nodiscard]] Ways ways_of(const LipPlace& place) const {
+    const Vec3d straight = 2 * options_.depth * place.down;
+    return {straight, straight + 2 * lean_of(options_) * place.under};
+  }
+
   /// Walls get half of the room below, and nowhere much more than next to it.
   void find_room() {
-    const double depth = options_.depth, lean = lean_of(options_);
-    for (std::size_t i = 0; i <= count(); ++i) {
-      LipPlace& place = places_[i];
-      if (to_wall_[i] > 0 || place.end != kNone || place.is_tip()) continue;
-      const Vec3d straight = 2 * depth * place.down, leaning = straight + 2 * lean * place.under;
-      place.room = room_below(place.at, straight, walls_.submeshes, builder_.work());
-      if (lean > 0 && place.room > 0)
-        place.room =
-            std::min(place.room, room_below(place.at, leaning, walls_.submeshes, builder_.work()));
-      place.room = std::max(place.room, kLeastRoom);
-    }
+    ScratchVector<std::size_t> wanted(&builder_.scratch());
+    for (std::size_t i = 0; i <= count(); ++i)
+      if (!(to_wall_[i] > 0) && places_[i].end == kNone && !places_[i].is_tip())
+        wanted.push_back(i);
+    RoomBelow room(walls_.submeshes, builder_.work());
+    constexpr std::size_t kAtOnce = 64;  // their surroundings are small, and have few faces each
+    for (std::size_t first = 0; first < wanted.size(); first += kAtOnce)
+      find_room(std::span(wanted).subspan(first, std::min(kAtOnce, wanted.size() - first)), room);
     for (std::size_t i = 1; i <= count(); ++i) limit(i, i - 1);
     for (std::size_t i = count(); i-- > 0;) limit(i, i + 1);
+  }
+  void find_room(std::span<const std::size_t> wanted, RoomBelow& room) {
+    room.clear();
+    for (const std::size_t i : wanted) {
+      const Ways ways = ways_of(places_[i]);
+      room.expect(places_[i].at, ways.straight);
+      room.expect(places_[i].at, ways.leaning);
+    }
+    room.look_around();
+    for (const std::size_t i : wanted) {
+      LipPlace& place = places_[i];
+      const Ways ways = ways_of(place);
+      room.stand_at(place.at, ways.straight, ways.leaning);
+      place.room = room.along(place.at, ways.straight);
+      if (lean_of(options_) > 0 && place.room > 0)
+        place.room = std::min(place.room, room.along(place.at, ways.leaning));
+      place.room = std::max(place.room, kLeastRoom);
+    }
   }
   void limit(std::size_t i, std::size_t by) {
     if (places_[i].end != kNone || places_[by].is_tip()) return;

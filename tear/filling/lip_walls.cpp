@@ -50,7 +50,9 @@ class LipStrip {
         walls_(walls),
         builder_(builder),
         points_(places.size(), WallRows<Index>{}, &builder.scratch()),
-        firsts_(places.size(), WallRows<VertexRef>{}, &builder.scratch()) {
+        firsts_(places.size(), WallRows<VertexRef>{}, &builder.scratch()),
+        rows_(&builder.scratch()),
+        areas_(&builder.scratch()) {
     find_seam();
   }
 
@@ -181,17 +183,35 @@ class LipStrip {
   }
 
   /// The posed position of a row.
-  [[nodiscard]] Vec3d at_row(std::size_t at, std::size_t row) const {
-    const LipPlace& place = places_[at];
-    if (row > 0 && place.end != kNone)
-      return builder_.position(walls_.ends[place.end].rows[row - 1]);
-    return place.at + profile_.offset(row, place);
+  [[nodiscard]] const Vec3d& at_row(std::size_t at, std::size_t row) const {
+    return rows_[at][row];
   }
   /// The normals of the two triangles below a row of an edge, times twice their areas.
-  [[nodiscard]] std::array<Vec3d, 2> doubled_areas(std::size_t edge, std::size_t row) const {
-    const Vec3d from = at_row(edge + 1, row), below = at_row(edge, row + 1) - from;
-    return {Vec3d(at_row(edge, row) - from).cross(below),
-            below.cross(Vec3d(at_row(edge + 1, row + 1) - from))};
+  using DoubledAreas = std::array<Vec3d, 2>;
+  [[nodiscard]] const DoubledAreas& doubled_areas(std::size_t edge, std::size_t row) const {
+    return areas_[edge][row];
+  }
+  /// Computes them for the edges that get walls.
+  void measure() {
+    rows_.resize(places_.size());
+    areas_.resize(count());
+    for (std::size_t i = 0; i < count(); ++i) {
+      if (!has_wall(i)) continue;
+      if (i == 0 || !has_wall(i - 1)) place_rows(i);
+      place_rows(i + 1);
+      for (std::size_t row = 0; row + 1 < profile_.count; ++row) {
+        const Vec3d from = rows_[i + 1][row], below = rows_[i][row + 1] - from;
+        areas_[i][row] = {Vec3d(rows_[i][row] - from).cross(below),
+                          below.cross(Vec3d(rows_[i + 1][row + 1] - from))};
+      }
+    }
+  }
+  void place_rows(std::size_t at) {
+    const LipPlace& place = places_[at];
+    for (std::size_t row = 0; row < profile_.count; ++row)
+      rows_[at][row] = row > 0 && place.end != kNone
+                           ? builder_.position(walls_.ends[place.end].rows[row - 1])
+                           : Vec3d(place.at + profile_.offset(row, place));
   }
   /// The mean normal, by area, of the triangles of an edge around a row; around all rows at a tip.
   [[nodiscard]] Vec3d normal(std::size_t edge, std::size_t row, bool is_tip) const {
@@ -233,6 +253,7 @@ class LipStrip {
   }
 
   void build() {
+    measure();
     Column last;
     Index mesh = kNone;
     for (std::size_t i = 0; i < count(); ++i) {
@@ -288,6 +309,8 @@ class LipStrip {
   /// Per place: the first vertices of these points. The others are copies, so that they are at the
   /// same place, bit for bit.
   ScratchVector<WallRows<VertexRef>> firsts_;
+  ScratchVector<WallRows<Vec3d>> rows_;          ///< Per place: posed.
+  ScratchVector<WallRows<DoubledAreas>> areas_;  ///< Per edge.
   std::size_t seam_ = 0;  ///< The first edge that counts from the end of the rim.
   double first_along_ = 0, last_along_ = 0;
 };

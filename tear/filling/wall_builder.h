@@ -68,7 +68,7 @@ class WallBuilder {
                                       const Vec3d& down) {
     const Index vertex = work_.editor.births.append_filling_vertex(mesh, top.vertex);
     Mesh& of = work_.editor.mutable_mesh(mesh);
-    const Vec3d bind = to_bind(filling_.blended(mesh, vertex), down, down);
+    const Vec3d bind = filling_.to_bind(mesh, vertex, down);
     of.positions[vertex] = (of.positions[vertex].cast<double>() + bind).cast<float>();
     return {point, vertex};
   }

@@ -151,6 +151,9 @@ inline constexpr double kLeastUnder = 0.1;
 inline constexpr double kLeastRoom = 1e-3;
 /// Where a search for the surface below a lip begins, as a fraction of its way.
 inline constexpr double kBelowLipWays = 1e-4;
+/// A face near blades is within this fraction of its size, and of that of the blades, of a box
+/// around it in float.
+inline constexpr double kNearBladeSizes = 1e-3;
 /// A closed rim goes round the axis of a bore if its turn differs from a full one by less.
 inline constexpr double kRingQuarterTurns = 0.1;
 

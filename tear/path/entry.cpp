@@ -7,17 +7,10 @@
 
 #include "core/internal/ordered.h"
 #include "tear/geometry/tolerances.h"
+#include "tear/path/blade_segment.h"
 
 namespace sunder::tear {
 namespace {
-
-using EntryCorners = std::array<Vec3d, 3>;
-
-EntryCorners posed_corners(const SurfaceEditor& editor, PosedPoints& posed, Index triangle) {
-  const Index* points = &editor.surface().corner_point[3 * triangle];
-  return {posed.position(editor, points[0]), posed.position(editor, points[1]),
-          posed.position(editor, points[2])};
-}
 
 /// The part of a triangle that lies in the plane, as two points on its edges.
 struct PlaneSection {
@@ -28,7 +21,7 @@ struct PlaneSection {
   std::array<End, 2> ends;
 };
 
-std::optional<PlaneSection> cross_triangle(const BladePlane& plane, const EntryCorners& corners) {
+std::optional<PlaneSection> cross_triangle(const BladePlane& plane, const FaceCorners& corners) {
   std::array<double, 3> distance;
   for (std::size_t k = 0; k < 3; ++k) distance[k] = plane.distance(corners[k]);
   PlaneSection section;
@@ -56,106 +49,13 @@ bool clip(const BladePlane::HalfPlane& half_plane, const Vec2d& a, const Vec2d& 
   return begin <= end;
 }
 
-/// A segment in a frame whose first axis is its direction. Clips the segment to boxes of that
-/// frame.
-class Segment {
- public:
-  Segment(const Blade& blade, const Frame& frame)
-      : base_(blade.base),
-        direction_(blade.tip - blade.base),
-        frame_(frame),
-        base_in_frame_(frame.place_of(base_)),
-        direction_in_frame_(multiply(frame.axes, direction_)),
-        per_step_(direction_in_frame_.cwiseInverse()),
-        reach_(std::max(
-            {frame.reach(), base_.cwiseAbs().maxCoeff(), blade.tip.cwiseAbs().maxCoeff()})),
-        rounding_(kPosedCoordinates * reach_) {}
-
-  struct Part {
-    double begin = 0, end = 1;
-    [[nodiscard]] bool is_empty() const { return begin > end; }
-    [[nodiscard]] double begin_or_infinity() const {
-      return is_empty() ? std::numeric_limits<double>::infinity() : begin;
-    }
-  };
-  /// The part of the segment inside a box of the surface, conservative under rounding. The boxes
-  /// already include a margin for rounding in the frame, so only the rounding of model coordinates
-  /// is added here.
-  [[nodiscard]] Part part_in(const FrameBox& box) const { return part_in(box, rounding_); }
-
-  /// The part inside a shadow. Its box was tested before.
-  [[nodiscard]] Part part_in(const FrameBox&, const Shadow& shadow) const {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double at =
-          shadow.normal[k].x() * base_in_frame_.y() + shadow.normal[k].y() * base_in_frame_.z();
-      if (at < shadow.from[k] - rounding_ || at > shadow.to[k] + rounding_) return {1, 0};
-    }
-    const double to_low = shadow.low - rounding_ - base_in_frame_.x(),
-                 to_high = shadow.high + rounding_ - base_in_frame_.x();
-    return {std::max(0.0, to_low * per_step_.x()), std::min(1.0, to_high * per_step_.x())};
-  }
-
-  /// The intersection with a triangle, including its edges so that the segment cannot pass between
-  /// two faces. Moeller and Trumbore 1997.
-  [[nodiscard]] std::optional<SurfaceHit> hit(Index triangle, const EntryCorners& corners,
-                                              double& depth) const {
-    const Vec3d ab = corners[1] - corners[0], ac = corners[2] - corners[0];
-    const Vec3d h = direction_.cross(ac);
-    const double determinant = dot(ab, h);
-    if (!(std::abs(determinant) > kAlongFaceLengths * norm(ab) * norm(ac) * norm(direction_)))
-      return std::nullopt;
-    const Vec3d from_corner = base_ - corners[0];
-    const double u = dot(from_corner, h) / determinant;
-    const Vec3d q = from_corner.cross(ab);
-    const double v = dot(direction_, q) / determinant;
-    depth = dot(ac, q) / determinant;
-    if (u < -kHitBarycentric || v < -kHitBarycentric || u + v > 1 + kHitBarycentric || depth < 0 ||
-        depth > 1)
-      return std::nullopt;
-    // If the segment runs along the triangle's plane, rounding may give places outside the
-    // triangle.
-    const Vec3d a = frame_.place_of(corners[0]), b = frame_.place_of(corners[1]),
-                c = frame_.place_of(corners[2]);
-    const FrameBox box{a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
-    const Part part = part_in(box, box.margin(reach_));
-    if (part.is_empty()) return std::nullopt;
-    depth = std::clamp(depth, part.begin, part.end);
-    return SurfaceHit{triangle,
-                      {std::max(0.0, 1 - u - v), std::max(0.0, u), std::max(0.0, v)},
-                      base_ + depth * direction_,
-                      0};
-  }
-
- private:
-  Vec3d base_, direction_;
-  Frame frame_;
-  Vec3d base_in_frame_, direction_in_frame_, per_step_;
-  double reach_, rounding_;
-
-  [[nodiscard]] Part part_in(const FrameBox& box, double margin) const {
-    Part part;
-    for (int k = 0; k < 3; ++k) {
-      const double to_low = box.low[k] - margin - base_in_frame_[k],
-                   to_high = box.high[k] + margin - base_in_frame_[k];
-      if (direction_in_frame_[k] == 0) {
-        if (to_low > 0 || to_high < 0) return {1, 0};
-        continue;
-      }
-      const bool ascends = direction_in_frame_[k] > 0;
-      part.begin = std::max(part.begin, (ascends ? to_low : to_high) * per_step_[k]);
-      part.end = std::min(part.end, (ascends ? to_high : to_low) * per_step_[k]);
-    }
-    return part;
-  }
-};
-
 /// The contact of a sweep with one triangle.
 struct Contact {
   SurfaceHit hit;
   SweepCoordinates low;  ///< Coordinates of the hit.
 };
 
-std::optional<Contact> contact_with(Index triangle, const EntryCorners& corners,
+std::optional<Contact> contact_with(Index triangle, const FaceCorners& corners,
                                     const BladePlane& plane, double progress,
                                     const BladePlane::HalfPlane& not_before) {
   const auto section = cross_triangle(plane, corners);
@@ -254,50 +154,21 @@ void for_each_contact(const BladePlane& plane, double progress, const SurfaceEdi
   });
 }
 
-/// The first hit of a segment, in the faces that `least_depth` leads to.
-/// @param frame  of the boxes that `least_depth` is given.
-template <class LeastDepth>
-std::optional<SurfaceHit> nearest_hit(const Segment& segment, const Frame& frame,
-                                      LeastDepth least_depth, const SurfaceEditor& editor,
-                                      PosedPoints& posed) {
-  std::optional<SurfaceHit> nearest;
-  double nearest_depth = 1.0;
-  posed.visit_faces(editor, frame, least_depth, [&](Index triangle) {
-    double depth = 0;
-    const auto hit = segment.hit(triangle, posed_corners(editor, posed, triangle), depth);
-    const bool is_nearer =
-        hit && (depth < nearest_depth ||
-                (depth == nearest_depth && (!nearest || triangle < nearest->triangle)));
-    if (is_nearer) {
-      nearest_depth = depth;
-      nearest = hit;
-    }
-    return nearest_depth;
-  });
-  return nearest;
-}
-
 }  // namespace
 
 std::optional<SurfaceHit> first_hit(const Blade& blade, const SurfaceEditor& editor,
                                     PosedPoints& posed) {
   const Frame frame = posed.frame_along(axes_along(blade.tip - blade.base), editor);
-  const Segment segment(blade, frame);
+  const BladeSegment segment(blade, frame);
   const auto least_depth = [&](const FrameBox& box, const auto&... shadow) {
     return segment.part_in(box, shadow...).begin_or_infinity();
   };
-  return nearest_hit(segment, frame, least_depth, editor, posed);
-}
-
-std::optional<SurfaceHit> first_hit_of_many(const Blade& blade, const SurfaceEditor& editor,
-                                            PosedPoints& posed) {
-  const Segment segment(blade, posed.frame_along(axes_along(blade.tip - blade.base), editor));
-  const Frame frame = posed.frame_along(Mat3d::Identity(), editor);
-  const Segment in_boxes(blade, frame);
-  const auto least_depth = [&](const FrameBox& box) {
-    return in_boxes.part_in(box).begin_or_infinity();
-  };
-  return nearest_hit(segment, frame, least_depth, editor, posed);
+  NearestHit nearest(segment);
+  posed.visit_faces(editor, frame, least_depth, [&](Index triangle) {
+    nearest.meet(triangle, posed_corners(editor, posed, triangle));
+    return nearest.depth();
+  });
+  return nearest.hit();
 }
 
 std::optional<SurfaceHit> first_contact(const BladePlane& plane, double progress,

@@ -15,12 +15,6 @@ namespace sunder::tear {
 [[nodiscard]] std::optional<SurfaceHit> first_hit(const Blade& blade, const SurfaceEditor& editor,
                                                   PosedPoints& posed);
 
-/// The same, for many short blades in various directions that follow one another: their boxes have
-/// the same axes, so that each is posed once. A single blade meets more boxes than in first_hit().
-[[nodiscard]] std::optional<SurfaceHit> first_hit_of_many(const Blade& blade,
-                                                          const SurfaceEditor& editor,
-                                                          PosedPoints& posed);
-
 /// The faces that a search for contacts looks at.
 enum class ContactWith : std::uint8_t { all_faces, all_but_walls };
 

@@ -3,6 +3,12 @@
 #include <algorithm>
 
 namespace sunder::tear {
+namespace {
+
+/// Most walls and caps of a mesh that queries visit one by one.
+constexpr Index kMostOneByOne = 512;
+
+}  // namespace
 
 void PatchForest::forget_pose() {
   if (++epoch_ != 0) return;
@@ -14,8 +20,8 @@ void PatchForest::forget_pose() {
 }
 
 void PatchForest::stand_in(const SurfaceEditor& editor, const CharacterPose& pose,
-                           const Frame& frame) {
-  cover(editor);
+                           const Frame& frame, NewFillings fillings) {
+  cover(editor, fillings);
   if (frame.axes != frame_.axes || frame.origin != frame_.origin) forget_pose();
   frame_ = frame;
   for (std::size_t skin = 0; skin < bones_.size(); ++skin)
@@ -28,7 +34,7 @@ std::size_t PatchForest::tree_count() const {
   return count;
 }
 
-void PatchForest::cover(const SurfaceEditor& editor) {
+void PatchForest::cover(const SurfaceEditor& editor, NewFillings fillings) {
   const auto& meshes = editor.source().meshes;
   if (!is_built_) {
     if (shared_ == nullptr && own_ == nullptr)
@@ -46,7 +52,7 @@ void PatchForest::cover(const SurfaceEditor& editor) {
       bones_[skin].resize(editor.source().skins[skin].bones.size());
     is_built_ = true;
   }
-  for (Index m = 0; m < meshes.size(); ++m) cover_fillings(editor, m);
+  for (Index m = 0; m < meshes.size(); ++m) cover_fillings(editor, m, fillings);
 
   // The search is depth-first: in addition to the other roots, the stack holds at most the siblings
   // of each node on the way down the current tree.
@@ -61,11 +67,11 @@ void PatchForest::cover(const SurfaceEditor& editor) {
   stack_.reserve(roots + std::max(PatchTree::kFanOut, PatchTree::kPatchesPerGroup) * (levels + 1));
 }
 
-void PatchForest::cover_fillings(const SurfaceEditor& editor, Index mesh) {
-  const std::vector<Triangle>& fillings = editor.fillings.of(mesh);
+void PatchForest::cover_fillings(const SurfaceEditor& editor, Index mesh, NewFillings fillings) {
+  const std::vector<Triangle>& all = editor.fillings.of(mesh);
   std::vector<Covered>& trees = fillings_[mesh];
   const Index source_count = editor.source().meshes[mesh].triangle_count();
-  const Index end = source_count + static_cast<Index>(fillings.size());
+  const Index end = source_count + static_cast<Index>(all.size());
   // Fillings are added and removed last in, first out, and their serials ascend. A tree that has
   // lost most of its fillings is rebuilt.
   while (!trees.empty()) {
@@ -78,11 +84,12 @@ void PatchForest::cover_fillings(const SurfaceEditor& editor, Index mesh) {
   }
   Index first = trees.empty() ? source_count : trees.back().end;
   if (first == end) return;
+  if (fillings == NewFillings::one_by_one && end - first <= kMostOneByOne) return;
   while (!trees.empty() && trees.back().end - trees.back().first < 2 * (end - first)) {
     first = trees.back().first;
     trees.pop_back();
   }
-  const auto triangles = std::span(fillings).subspan(first - source_count);
+  const auto triangles = std::span(all).subspan(first - source_count);
   auto tree = std::make_shared<const PatchTree>(editor.character().meshes[mesh], triangles, first);
   PatchTree::PosedBoxes boxes(*tree);
   trees.push_back(

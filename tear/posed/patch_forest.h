@@ -11,6 +11,10 @@
 
 namespace sunder::tear {
 
+/// How a query looks at walls and caps that are not in trees yet: it puts them there, or visits
+/// them all if they are few, as pays if the query is not followed by others.
+enum class NewFillings : std::uint8_t { in_trees, one_by_one };
+
 /// Finds faces of the posed surface without posing all of it, by trees of patches over the source
 /// triangles of all meshes. A tear changes no tree, because the parts of a source triangle lie
 /// within it, so that models share the trees of their source. Walls and caps get trees of their own
@@ -36,7 +40,8 @@ class PatchForest {
   ///         this function.
   template <class Bound, class Expect, class Visit>
   void visit_faces(const SurfaceEditor& editor, const CharacterPose& pose, const Frame& frame,
-                   Bound bound, Expect expect, Visit visit);
+                   Bound bound, Expect expect, Visit visit,
+                   NewFillings fillings = NewFillings::in_trees);
 
   /// Calls visit(tree, group, end) for the groups of patches of a mesh that may_hold(tree, level,
   /// number of a node) accepts, with all nodes above them, in no particular order. Origins from
@@ -62,7 +67,8 @@ class PatchForest {
   [[nodiscard]] std::vector<Covered*> trees(const SurfaceEditor& editor);
 
   /// Sets the pose and the frame of the boxes.
-  void stand_in(const SurfaceEditor& editor, const CharacterPose& pose, const Frame& frame);
+  void stand_in(const SurfaceEditor& editor, const CharacterPose& pose, const Frame& frame,
+                NewFillings fillings = NewFillings::in_trees);
   [[nodiscard]] MeshPose pose_of(const Mesh& mesh, const CharacterPose& pose) {
     return {bones_[mesh.skin],
             pose.morph_weights().subspan(mesh.first_morph_weight, mesh.morph_targets.size())};
@@ -109,8 +115,11 @@ class PatchForest {
       for (Index i = 0; i < count; ++i) visit(bound(patches.boxes[i]), first + i);
     }
   }
-  void cover(const SurfaceEditor& editor);
-  void cover_fillings(const SurfaceEditor& editor, Index mesh);
+  void cover(const SurfaceEditor& editor, NewFillings fillings = NewFillings::in_trees);
+  void cover_fillings(const SurfaceEditor& editor, Index mesh, NewFillings fillings);
+  /// Calls visit(face) for the walls and caps that are in no tree.
+  template <class Visit>
+  void for_each_new_filling(const SurfaceEditor& editor, Visit visit) const;
   /// Puts a node on the stack, before the nodes down to `first` that are farther away.
   void push(const Waiting& node, std::size_t first);
 
@@ -132,10 +141,21 @@ void PatchForest::for_each_face(const SurfaceEditor& editor, const Covered& cove
     if (origin < covered.end) editor.origins.for_each_part(covered.mesh, origin, visit);
 }
 
+template <class Visit>
+void PatchForest::for_each_new_filling(const SurfaceEditor& editor, Visit visit) const {
+  for (Index mesh = 0; mesh < fillings_.size(); ++mesh) {
+    const Index source_count = editor.source().meshes[mesh].triangle_count(),
+                end = source_count + static_cast<Index>(editor.fillings.of(mesh).size());
+    Index origin = fillings_[mesh].empty() ? source_count : fillings_[mesh].back().end;
+    for (; origin < end; ++origin) editor.origins.for_each_part(mesh, origin, visit);
+  }
+}
+
 template <class Bound, class Expect, class Visit>
 void PatchForest::visit_faces(const SurfaceEditor& editor, const CharacterPose& pose,
-                              const Frame& frame, Bound bound, Expect expect, Visit visit) {
-  stand_in(editor, pose, frame);
+                              const Frame& frame, Bound bound, Expect expect, Visit visit,
+                              NewFillings fillings) {
+  stand_in(editor, pose, frame, fillings);
   const auto& meshes = editor.character().meshes;
   constexpr double kNowhere = std::numeric_limits<double>::infinity();
   double limit = std::numeric_limits<double>::max();
@@ -143,6 +163,8 @@ void PatchForest::visit_faces(const SurfaceEditor& editor, const CharacterPose& 
     node.bound = least;
     if (node.bound < kNowhere && !(node.bound > limit)) push(node, first);
   };
+  if (fillings == NewFillings::one_by_one)
+    for_each_new_filling(editor, [&](Index face) { limit = visit(face); });
   stack_.clear();
   const bool is_one_tree = tree_count() == 1;  // its box would exclude nothing
   for_each_tree([&](Covered& covered) {

@@ -85,24 +85,26 @@ class PosedPoints {
   [[nodiscard]] Frame frame_along(const Mat3d& axes, const SurfaceEditor& editor) const;
   /// Visits faces of the surface as `bound` directs; see PatchForest::visit_faces().
   template <class Bound, class Visit>
-  void visit_faces(const SurfaceEditor& editor, const Frame& frame, Bound bound, Visit visit) {
+  void visit_faces(const SurfaceEditor& editor, const Frame& frame, Bound bound, Visit visit,
+                   NewFillings fillings = NewFillings::in_trees) {
     const auto expect = [&](Index mesh, std::span<const Index> origins) {
       fetch(editor, mesh, origins);
     };
-    forest_.visit_faces(editor, pose_, frame, bound, expect, visit);
+    forest_.visit_faces(editor, pose_, frame, bound, expect, visit, fillings);
   }
   /// Calls visit(face) for the live faces of all patches whose boxes may_hold(box) accepts, in no
   /// particular order.
   template <class MayHold, class Visit>
-  void for_each_face(const SurfaceEditor& editor, const Frame& frame, MayHold may_hold,
-                     Visit visit) {
+  void for_each_face(const SurfaceEditor& editor, const Frame& frame, MayHold may_hold, Visit visit,
+                     NewFillings fillings = NewFillings::in_trees) {
     const auto bound = [&](const FrameBox& box) {
       return may_hold(box) ? 0.0 : std::numeric_limits<double>::infinity();
     };
-    visit_faces(editor, frame, bound, [&](Index face) {
+    const auto visit_any = [&](Index face) {
       visit(face);
       return 0.0;
-    });
+    };
+    visit_faces(editor, frame, bound, visit_any, fillings);
   }
   [[nodiscard]] PatchForest& forest() { return forest_; }
 

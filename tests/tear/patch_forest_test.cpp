@@ -23,6 +23,7 @@
 #include "tear/operation/cut.h"
 #include "tear/operation/drill.h"
 #include "tear/operation/ongoing_stroke.h"
+#include "tear/path/faces_near_blades.h"
 #include "tear/posed/hilbert_curve.h"
 #include "tear/sheet/gap.h"
 #include "tear/sheet/open_sheet.h"
@@ -428,9 +429,15 @@ TEST(PatchForest, finds_the_same_as_testing_every_face) {
         const auto found = first_hit(blade, torn.editor, torn.posed);
         EXPECT_TRUE(is_same(found, expected))
             << say_hit(found) << " instead of " << say_hit(expected);
-        const auto of_many = first_hit_of_many(blade, torn.editor, torn.posed);
-        EXPECT_TRUE(is_same(of_many, expected))
-            << say_hit(of_many) << " instead of " << say_hit(expected);
+        const Workpiece work = {torn.editor, torn.posed};
+        FacesNearBlades near(work);
+        near.include(blade);
+        near.include(some_blade(torn, face, size, random));
+        near.collect();
+        near.select(std::array{blade});
+        const auto found_near = near.first_hit(blade);
+        EXPECT_TRUE(is_same(found_near, expected))
+            << say_hit(found_near) << " instead of " << say_hit(expected);
         hits += found ? 1 : 0;
 
         // A second blade that is rotated and moved relative to the first.
