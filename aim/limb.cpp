@@ -33,21 +33,14 @@ Limb limb_at(const Limb& limb, double at) {
   return other;
 }
 
-Status check_length(const AimedLength& length, const NumberRange& range) {
-  if (length.unit == AimedLength::Unit::metres) return range.check(length.value);
-  NumberRange widths = field::kWidths;
-  widths.field = range.field;
-  return widths.check(length.value);
-}
-
-Status check_within_limb(const Limb& limb, const NumberRange& range, double value, double most,
+Status check_within_limb(const Limb& limb, const char* field, double value, double most,
                          const char* size) {
   constexpr double kRounding = 1e-6;
   if (value <= most * (1 + kRounding)) return {};
   return Status::failure(StatusCode::invalid_argument, limb.bones.bone(),
                          "%s: %s is %.4g m; it must be at most %.4g m, as %s; lengths are in "
                          "metres, or in widths of the limb",
-                         limb.label.c_str(), range.field, value, most, size);
+                         limb.label.c_str(), field, value, most, size);
 }
 
 }  // namespace sunder::aim

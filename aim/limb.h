@@ -45,12 +45,10 @@ template <class Predicate>
 ///         and 1.
 [[nodiscard]] Result<Limb> find_limb(const PosedSurface& surface, const LimbPlace& place);
 
-/// Checks a length by the range of its unit. @param range  of metres.
-[[nodiscard]] Status check_length(const AimedLength& length, const NumberRange& range);
 /// Checks lengths that no limb of that size can hold; they are mostly meant in another unit.
 /// @param most  the size of the limb, metres. @param size  what it is: "the limb is wide there".
 /// @return invalid_argument.
-[[nodiscard]] Status check_within_limb(const Limb& limb, const NumberRange& range, double value,
+[[nodiscard]] Status check_within_limb(const Limb& limb, const char* field, double value,
                                        double most, const char* size);
 [[nodiscard]] inline double metres(const AimedLength& length, double width) {
   return length.unit == AimedLength::Unit::widths ? length.value * width : length.value;

@@ -7,7 +7,8 @@
 #include "aim/limb_rays.h"
 #include "aim/operations.h"
 #include "core/internal/ordered.h"
-#include "operation/internal/field_ranges.h"
+#include "operation/internal/check_ranges.h"
+#include "operation/internal/describe_aimed.h"
 
 namespace sunder::aim {
 namespace {
@@ -17,13 +18,11 @@ constexpr int kRaysPerRing = 16;
 constexpr double kFreeShare = 0.9;
 
 Status check(const Limb& limb, const PunctureOperation& puncture) {
-  if (const Status status = check_length(puncture.radius, field::kRadius); !status) return status;
-  if (!puncture.depth) return {};
-  if (puncture.is_through)
+  if (puncture.depth && puncture.is_through)
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "%s: a puncture through the limb has no depth of its own",
                            limb.label.c_str());
-  return check_length(*puncture.depth, field::kDepth);
+  return check_ranges(puncture);
 }
 
 /// Places inside a circle of the plane of the view: its middle and three rings.
@@ -91,7 +90,7 @@ Result<Operation> resolve_puncture(const PosedSurface& surface, const PunctureOp
   LimbRays rays(*limb, *frame, *sections);
   const double width = rays.width(), radius = metres(puncture.radius, width);
   if (const Status status =
-          check_within_limb(*limb, field::kRadius, radius, width, "the limb is not wider there");
+          check_within_limb(*limb, "radius", radius, width, "the limb is not wider there");
       !status)
     return status;
   if (const Status status = field::check_chord_tolerance(puncture.chord_tolerance, radius); !status)
@@ -104,9 +103,9 @@ Result<Operation> resolve_puncture(const PosedSurface& surface, const PunctureOp
                            "%s: the limb has no surface there that is seen from this side",
                            limb->label.c_str());
   if (puncture.depth)
-    if (const Status status = check_within_limb(
-            *limb, field::kDepth, metres(*puncture.depth, width),
-            std::max(width, middle->near - middle->far), "the limb is not thicker there");
+    if (const Status status = check_within_limb(*limb, "depth", metres(*puncture.depth, width),
+                                                std::max(width, middle->near - middle->far),
+                                                "the limb is not thicker there");
         !status)
       return status;
   const BoreEnds ends = ends_of(puncture, *middle, *all, width);

@@ -8,7 +8,8 @@
 #include "aim/limb_rays.h"
 #include "aim/operations.h"
 #include "core/internal/ordered.h"
-#include "operation/internal/field_ranges.h"
+#include "operation/internal/check_ranges.h"
+#include "operation/internal/describe_aimed.h"
 
 namespace sunder::aim {
 namespace {
@@ -24,13 +25,6 @@ constexpr double kMostSteps = 128 * kBladesPerWidth;
 constexpr double kLeastDepthWidths = 0.02;
 /// What the limb, and the limb with its parent, move of the surface along a stroke, at least.
 constexpr double kLeastOfStroke = 0.3, kLeastOfStrokeWithParent = 0.6;
-
-Status check(const SlashOperation& slash) {
-  if (const Status status = check_length(slash.length, field::kLength); !status) return status;
-  if (slash.depth)
-    if (const Status status = check_length(*slash.depth, field::kDepth); !status) return status;
-  return field::kTurnDegrees.check_degrees(slash.turn);
-}
 
 /// The rays of the blades that hit the limb, from the middle of the stroke to both sides without a
 /// gap. Where the stroke reaches beyond the limb, it ends at the outline.
@@ -85,17 +79,39 @@ SeenStroke look_along(const LimbRays& rays, const Vec3d& way, double length) {
   return thinned(march(rays, *middle, step * way, half));
 }
 
+/// Replaces the lengths of a tear that are in widths of the limb.
+struct InMetres {
+  double width;  ///< Of the limb.
+
+  template <class Widths>
+  void operator()(const Field&, double& length, const TearLength<Widths>& kind) const {
+    if (*kind.in_widths) length = **kind.in_widths * width;
+  }
+  void operator()(const Field&, const auto&...) const {}
+};
+
 /// The options of the tear, all in metres.
 TearOptions options_in_metres(const SlashOperation& slash, double width) {
   TearOptions options = slash.options;
-  const auto replace = [&](double& length, const std::optional<double>& widths) {
-    if (widths) length = *widths * width;
-  };
-  replace(options.width, slash.in_widths.width);
-  replace(options.wall_depth, slash.in_widths.wall_depth);
-  replace(options.lip_roll, slash.in_widths.lip_roll);
+  const InMetres in_metres{width};
+  describe_options(in_metres, options, &slash.in_widths);
   return options;
 }
+
+/// Checks the lengths of a tear by the size of the limb, metres.
+struct LimbSizeCheck {
+  const Limb& limb;
+  double width, most_deep;
+  Status status;
+
+  template <class Widths>
+  void operator()(const Field& field, double length, const TearLength<Widths>& kind) {
+    if (status)
+      status = check_within_limb(limb, field.name, length, kind.is_depth ? most_deep : width,
+                                 "the limb is not wider there");
+  }
+  void operator()(const Field&, const auto&...) const {}
+};
 
 /// Refuses lengths beyond what was seen of the limb: a stroke that was meant in other units would
 /// silently become one to the outline, or through the whole limb.
@@ -105,26 +121,18 @@ Status check_sizes(const Limb& limb, const SlashOperation& slash, const TearOpti
   double thickness = 0;
   for (const RayHit& hit : seen.hits) thickness = std::max(thickness, hit.near - hit.far);
   const double most_deep = std::max(width, thickness);
-  const auto check_one = [&](const NumberRange& range, double value, double most,
-                             const char* size) {
-    return check_within_limb(limb, range, value, most, size);
-  };
-  if (const Status status = check_one(field::kLength, metres(slash.length, width),
-                                      std::max(width, reach), "the limb ends there");
+  if (const Status status = check_within_limb(limb, "length", metres(slash.length, width),
+                                              std::max(width, reach), "the limb ends there");
       !status)
     return status;
   if (slash.depth)
-    if (const Status status = check_one(field::kDepth, metres(*slash.depth, width), most_deep,
-                                        "the limb is not thicker there");
+    if (const Status status = check_within_limb(limb, "depth", metres(*slash.depth, width),
+                                                most_deep, "the limb is not thicker there");
         !status)
       return status;
-  constexpr const char* kWide = "the limb is not wider there";
-  if (const Status status = check_one(field::kWidth, options.width, width, kWide); !status)
-    return status;
-  if (const Status status = check_one(field::kWallDepth, options.wall_depth, most_deep, kWide);
-      !status)
-    return status;
-  return check_one(field::kLipRoll, options.lip_roll, width, kWide);
+  LimbSizeCheck check{limb, width, most_deep, {}};
+  describe(check, options);
+  return check.status;
 }
 
 /// Heights of a blade towards the viewer.
@@ -181,7 +189,7 @@ Status check_shares(const Limb& limb, const LimbShares& shares) {
 Result<Operation> resolve_slash(const PosedSurface& surface, const SlashOperation& slash) {
   const Result<Limb> limb = find_limb(surface, slash.place);
   if (!limb) return limb.error();
-  if (const Status status = check(slash); !status) return status;
+  if (const Status status = check_ranges(slash); !status) return status;
   const Result<ViewFrame> frame = view_frame(*limb, slash.from);
   if (!frame) return frame.error();
   const auto sections = limb_sections(*limb, {frame->along, dot(frame->along, limb->place)});

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <vector>
 
-#include "core/internal/find_named.h"
 #include "core/internal/nearest_names.h"
 #include "operation/internal/field_ranges.h"
 
@@ -53,34 +52,28 @@ Place Place::at(const std::string& key) const {
 
 std::string Place::pointer_to(const std::string& key) const { return path + "/" + escaped(key); }
 
-void Place::check_fields(std::initializer_list<std::string_view> known) const {
+void Place::check_fields(std::span<const std::string_view> known,
+                         std::initializer_list<std::string_view> more) const {
   if (!value.is_object()) expected("an object");
   for (const auto& [key, unused] : value.items()) {
-    if (std::find(known.begin(), known.end(), key) != known.end()) continue;
-    const std::vector<std::string> names(known.begin(), known.end());
+    if (std::find(known.begin(), known.end(), key) != known.end() ||
+        std::find(more.begin(), more.end(), key) != more.end())
+      continue;
+    std::vector<std::string> names(known.begin(), known.end());
+    names.insert(names.end(), more.begin(), more.end());
     const std::vector<std::string> near = nearest_names(key, names);
     malformed("unknown field '" + key + "'" +
               (near.empty() ? "" : "; did you mean " + listed_names(near) + "?"));
   }
 }
 
-double read_number(const Place& place) {
-  if (!place.value.is_number()) place.expected("a number");
-  if (!is_number_up_to(place.value, kLargest)) place.malformed(text_of_largest(kLargest));
-  return place.value.get<double>();
-}
-
 double NumberIn::operator()(const Place& place) const {
   if (!place.value.is_number()) place.expected("a number");
   const auto number = place.value.get<double>();
+  if (range.or_else != nullptr && number == 0) return number;
   if (const Status status = range.check(number); !status)
     place.malformed(std::string(status.text()));
   return number;
-}
-
-bool read_bool(const Place& place) {
-  if (!place.value.is_boolean()) place.expected("true or false");
-  return place.value.get<bool>();
 }
 
 std::string read_name(const Place& place) {
@@ -96,16 +89,6 @@ std::uint32_t read_integer(const Place& place, const char* what, std::uint32_t l
   if (integer < least) place.malformed("expected at least " + std::to_string(least));
   if (integer > most) place.malformed("expected at most " + std::to_string(most));
   return static_cast<std::uint32_t>(integer);
-}
-
-std::uint32_t read_material(const Place& place) {
-  if (!place.value.is_string()) return read_integer(place, "the name or index of a material");
-  const std::string name = read_name(place);
-  if (place.model == nullptr)
-    place.malformed("'" + name + "' needs a model to be found in; without one, expected an index");
-  const Result<Index> material = find_material(*place.model, name);
-  if (!material) place.fail(material.error().code(), std::string(material.error().text()));
-  return *material;
 }
 
 const Json& read_array(const Place& place, const char* what) {
@@ -124,18 +107,6 @@ void read_numbers(const Place& place, std::span<double> numbers, double largest)
     if (!is_number_up_to(array[i], largest)) place.at(i).malformed(text_of_largest(largest));
     numbers[i] = array[i].get<double>();
   }
-}
-
-Vec3d read_point(const Place& place) {
-  Vec3d point;
-  read_numbers(place, {point.data(), 3}, kFarthestMetres);
-  return point;
-}
-
-Vec3d read_direction(const Place& place, const char* what) {
-  const Vec3d direction = read_point(place);
-  if (direction == Vec3d::Zero()) place.malformed(std::string(what) + " of zero length");
-  return direction;
 }
 
 }  // namespace sunder::operation_log

@@ -51,50 +51,28 @@ struct Place {
   [[nodiscard]] std::string pointer_to(const std::string& key) const;
   [[nodiscard]] bool has(const char* key) const { return value.contains(key); }
 
-  void check_fields(std::initializer_list<std::string_view> known) const;
+  /// @param more  further names.
+  void check_fields(std::span<const std::string_view> known,
+                    std::initializer_list<std::string_view> more = {}) const;
+  void check_fields(std::initializer_list<std::string_view> known) const {
+    check_fields({}, known);
+  }
 };
 
 // Each function checks its value; on failure it throws a Fault that names the place.
 
-/// Any number up to kLargest.
-double read_number(const Place& place);
 /// Reads a number of a range.
 struct NumberIn {
   NumberRange range;
   double operator()(const Place& place) const;
 };
-bool read_bool(const Place& place);
 std::string read_name(const Place& place);
 /// An index or a count.
 /// @param what  its name, for the error text.
 std::uint32_t read_integer(const Place& place, const char* what, std::uint32_t least = 0,
                            std::uint32_t most = kNone - 1);
-/// The index of a material of the file, or its name if the model has one material of that name.
-std::uint32_t read_material(const Place& place);
 const Json& read_array(const Place& place, const char* what);
-
-/// A place in model space, or a vector of any length, as operations accept it.
-Vec3d read_point(const Place& place);
-
 /// Reads all numbers of an array, which must have that length.
 void read_numbers(const Place& place, std::span<double> numbers, double largest = kLargest);
-
-template <int N>
-Eigen::Matrix<double, N, 1, Eigen::DontAlign> read_vector(const Place& place) {
-  Eigen::Matrix<double, N, 1, Eigen::DontAlign> vector;
-  read_numbers(place, {vector.data(), N});
-  return vector;
-}
-
-///
-/// @param what  its name, for the error text.
-Vec3d read_direction(const Place& place, const char* what);
-
-///
-/// @param value  unchanged if the field is absent.
-template <class Read, class Value>
-void read_if_given(const Place& place, const char* key, Read read, Value& value) {
-  if (place.has(key)) value = read(place.at(key));
-}
 
 }  // namespace sunder::operation_log

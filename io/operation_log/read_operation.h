@@ -15,7 +15,4 @@ std::vector<Operation> read_log(const Json& log, const Character* model);
 /// All operations of a log. Throws a Fault.
 std::vector<LoggedOperation> read_aimed_log(const Json& log, const Character* model);
 
-/// The field "layers" of a tear. Throws a Fault.
-Layers read_layers(const Place& place);
-
 }  // namespace sunder::operation_log

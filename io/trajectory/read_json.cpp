@@ -9,6 +9,11 @@ namespace {
 
 using operation_log::Place;
 
+constexpr operation_log::NumberIn kSampleTime = {{.field = "time",
+                                                  .least = -operation_log::kLargest,
+                                                  .most = operation_log::kLargest,
+                                                  .unit = " s"}};
+
 void read_names(const Place& place, RobotTrajectory& trajectory) {
   const auto& names = operation_log::read_array(place, "an array of names");
   if (names.size() > kMaximumNames)
@@ -24,7 +29,7 @@ void read_names(const Place& place, RobotTrajectory& trajectory) {
 
 void read_sample(const Place& place, RobotTrajectory& trajectory) {
   place.check_fields({"time", "values"});
-  const double time = operation_log::read_number(place.at("time"));
+  const double time = kSampleTime(place.at("time"));
   if (!trajectory.times.empty() && time <= trajectory.times.back())
     place.at("time").fail(StatusCode::invalid_argument,
                           "does not come after the time of the sample before");

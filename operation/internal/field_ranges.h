@@ -19,31 +19,28 @@ static_assert(kShortestMetres < kLongestMetres && kLongestMetres < kFarthestMetr
 namespace field {
 
 /// A length that may be zero.
-constexpr NumberRange length_from_zero(const char* field) {
+constexpr NumberRange length_from_zero(const char* field = "") {
   return {.field = field, .least = 0, .most = kLongestMetres, .unit = " m"};
 }
-constexpr NumberRange length_above_zero(const char* field) {
+constexpr NumberRange length_above_zero(const char* field = "") {
   return {.field = field,
           .least = kShortestMetres,
           .most = kLongestMetres,
           .unit = " m",
           .is_above_least = true};
 }
+/// The range of a field of a description, whose name it gets.
+constexpr NumberRange named(NumberRange range, const char* field) {
+  range.field = field;
+  return range;
+}
 
 inline constexpr NumberRange kCoordinate = {
     .field = "coordinate", .least = -kFarthestMetres, .most = kFarthestMetres};
-// Of tears.
-inline constexpr NumberRange kWidth = length_from_zero("width");
-inline constexpr NumberRange kWallDepth = length_from_zero("wall_depth");
-inline constexpr NumberRange kLipRoll = length_from_zero("lip_roll");
 // Of strokes that are sampled from a hand.
 inline constexpr NumberRange kMinimumDistance = length_from_zero("minimum_distance");
 inline constexpr NumberRange kMinimumSeconds = {
     .field = "minimum_seconds", .least = 0, .most = kLongestSeconds, .unit = " s"};
-// Of bores, punctures, slashes and incisions.
-inline constexpr NumberRange kRadius = length_above_zero("radius");
-inline constexpr NumberRange kDepth = length_above_zero("depth");
-inline constexpr NumberRange kLength = length_above_zero("length");
 /// Lengths in widths of the limb.
 inline constexpr NumberRange kWidths = {
     .field = "widths", .least = 0, .most = kLongestMetres, .is_above_least = true};
@@ -73,7 +70,8 @@ inline constexpr NumberRange kTiltDegrees = {
 
 // Of poses and refits.
 inline constexpr NumberRange kTime = {.field = "time", .least = 0, .most = 1e9, .unit = " s"};
-constexpr NumberRange importance(const char* field) {
+inline constexpr NumberRange kLimitRadians = {.field = "limit", .least = -1e9, .most = 1e9};
+constexpr NumberRange importance(const char* field = "") {
   return {.field = field, .least = 0, .most = 1e9};
 }
 inline constexpr NumberRange kBound = {.field = "bound", .least = 1, .most = 1e9, .or_else = "0"};

@@ -5,7 +5,8 @@
 #include <utility>
 
 #include "core/internal/ordered.h"
-#include "operation/internal/field_ranges.h"
+#include "operation/internal/check_ranges.h"
+#include "operation/internal/describe_operations.h"
 #include "tear/detached/released_vertices.h"
 #include "tear/geometry/tolerances.h"
 #include "tear/model/growth.h"
@@ -233,15 +234,8 @@ Status validate_weights(const WeightOptions& options) {
 }
 
 Status validate_options(const TearOptions& options) {
-  if (Status status = field::kWidth.check(options.width); !status) return status;
-  if (Status status = field::kWallDepth.check(options.wall_depth); !status) return status;
-  if (Status status = field::kLipRoll.check(options.lip_roll); !status) return status;
-  if (options.weights)
-    if (Status status = validate_weights(*options.weights); !status) return status;
-  if (options.layers != Layers::nearest && options.layers != Layers::all)
-    return Status::failure(StatusCode::invalid_argument, kNone, "unknown layers %u",
-                           static_cast<unsigned>(options.layers));
-  return {};
+  if (Status status = check_ranges(options); !status) return status;
+  return options.weights ? validate_weights(*options.weights) : Status();
 }
 
 Status validate_tear(std::span<const Blade> stroke, const TearOptions& options) {

@@ -4,7 +4,8 @@
 #include <cmath>
 
 #include "core/internal/ordered.h"
-#include "operation/internal/field_ranges.h"
+#include "operation/internal/check_ranges.h"
+#include "operation/internal/describe_operations.h"
 #include "tear/filling/bore_wall.h"
 #include "tear/geometry/tolerances.h"
 #include "tear/path/crack_points.h"
@@ -82,9 +83,7 @@ Status validate_bore(const Bore& bore) {
   if (!(norm(bore.direction) > kShortestDirection))
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "the direction of the bore has no length");
-  if (Status status = field::kRadius.check(bore.radius); !status) return status;
-  if (Status status = field::kDepth.check(bore.depth); !status) return status;
-  return field::check_chord_tolerance(bore.chord_tolerance, bore.radius);
+  return check_ranges(bore);
 }
 
 namespace {

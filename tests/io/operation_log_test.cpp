@@ -295,41 +295,6 @@ TEST(OperationLog, DocumentedExamplesAreRead) {
             std::variant_size_v<Operation> + std::variant_size_v<AimedOperation>);
 }
 
-/// The fields of operations, by the lists that the reader checks them against.
-std::set<std::set<std::string>> fields_of_operations() {
-  std::set<std::set<std::string>> all;
-  for (const char* const name : {"read_operation.cpp", "read_aimed.cpp", "read_weights.cpp"}) {
-    std::ifstream source(std::filesystem::path(SUNDER_SOURCE_DIR) / "io" / "operation_log" / name);
-    const std::string text{std::istreambuf_iterator<char>(source), {}};
-    for (std::size_t at = text.find("check_fields("); at != std::string::npos;
-         at = text.find("check_fields(", at + 1)) {
-      std::set<std::string> fields;
-      const std::string list = text.substr(at, text.find(')', at) - at);
-      for (std::size_t begin = list.find('"'); begin != std::string::npos;) {
-        const std::size_t end = list.find('"', begin + 1);
-        fields.insert(list.substr(begin + 1, end - begin - 1));
-        begin = list.find('"', end + 1);
-      }
-      if (fields.contains("op")) all.insert(fields);
-    }
-  }
-  return all;
-}
-
-TEST(OperationLog, TheSchemaHasTheFieldsThatAreRead) {
-  std::ifstream file(std::filesystem::path(SUNDER_SOURCE_DIR) / "docs/operation_log.schema.json");
-  const nlohmann::json schema = nlohmann::json::parse(file);
-  std::set<std::set<std::string>> in_schema;
-  for (const auto& [name, of] : schema["$defs"].items()) {
-    std::set<std::string> fields;
-    if (of.contains("properties"))
-      for (const auto& [field, unused] : of["properties"].items()) fields.insert(field);
-    if (fields.contains("op")) in_schema.insert(fields);
-  }
-  EXPECT_GT(in_schema.size(), 8u);
-  EXPECT_EQ(in_schema, fields_of_operations());
-}
-
 Character with_materials() {
   Character character;
   character.meshes.resize(1);

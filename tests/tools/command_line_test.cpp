@@ -17,6 +17,7 @@
 #include "support/machine/temporary_folder.h"
 #include "tools/command_line/listed_options.h"
 #include "tools/run_command.h"
+#include "tools/tear/aimed_fields.h"
 
 namespace sunder::tools {
 namespace {
@@ -225,6 +226,20 @@ TEST(CommandLine, other_shells_can_read_their_completions) {
     EXPECT_EQ(result.exit_code, 0) << shell << result.err;
   }
   if (!is_checked) GTEST_SKIP() << "needs zsh or fish";
+}
+
+TEST(CommandLine, ItsPageListsTheFieldsOfAimedOperations) {
+  std::ifstream file(std::filesystem::path(SUNDER_SOURCE_DIR) / "docs/command/tear.md");
+  const std::string page{std::istreambuf_iterator<char>(file), {}};
+  for (const char* const op : {"slash", "sever", "puncture"}) {
+    const std::size_t begin = page.find("| `--" + std::string(op) + " BONE");
+    ASSERT_NE(begin, std::string::npos) << op;
+    const std::string row = page.substr(begin, page.find('\n', begin) - begin);
+    for (const AimedField& field : aimed_fields(op).fields)
+      if (field.name != kShareField) {
+        EXPECT_THAT(row, HasSubstr("`" + std::string(field.name) + "`"));
+      }
+  }
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "tools/command_line/options.h"
 #include "tools/model/name_at.h"
+#include "tools/tear/aimed_fields.h"
 #include "tools/tear/aimed_option.h"
 
 namespace sunder::tools {
@@ -15,12 +16,21 @@ constexpr const char* kSever = "--sever";
 constexpr const char* kPuncture = "--puncture";
 
 /// An option that may be given several times, with one value each.
-void add(CLI::App& verb, const char* name, const char* type, const char* description) {
+void add(CLI::App& verb, const char* name, const std::string& description) {
   verb.add_option_function<std::vector<std::string>>(
           name, [](const std::vector<std::string>&) {}, description)
       ->allow_extra_args(false)
-      ->type_name(type)
+      ->type_name("BONE[@SHARE][,FIELD=VALUE...]")
       ->group("Aimed operations");
+}
+
+/// "fields: from, radius": those besides the share, which follows the bone.
+std::string fields_of(const char* option) {
+  std::string text;
+  for (const AimedField& field : aimed_fields(option + 2).fields)
+    if (field.name != kShareField)
+      text += (text.empty() ? "fields: " : ", ") + std::string(field.name);
+  return text;
 }
 
 /// The direction that "+x" or "0.5/0/1" names; empty for another text.
@@ -40,19 +50,16 @@ std::optional<Vec3d> facing_in(const std::string& text) {
 }  // namespace
 
 void add_aimed_operations(CLI::App& verb) {
-  add(verb, kSlash, "BONE[@SHARE][,FIELD=VALUE...]",
-      "Tear a stroke on the limb of a bone, at a share of its length from 0 to 1 (0.5); fields: "
-      "from, "
-      "length, turn, depth, width, layers, wall_depth, wall_material, lip_roll; see docs/aim.md. "
-      "Repeatable, as those "
-      "below; applied in order, after --ops");
-  add(verb, kSever, "BONE[@SHARE][,FIELD=VALUE...]",
-      "Cut through the limb of a bone and nothing else, without a share at its joint; fields: "
-      "tilt, from, caps, cap_material; detach: take off what comes free, with hats, eyes and axes "
-      "that move with it, or parts=none without them");
-  add(verb, kPuncture, "BONE[@SHARE][,FIELD=VALUE...]",
-      "Bore into the limb of a bone; fields: from, radius, through, depth, wall, "
-      "wall_material, chord_tolerance");
+  add(verb, kSlash,
+      "Tear a stroke on the limb of a bone, at a share of its length from 0 to 1 (0.5); " +
+          fields_of(kSlash) +
+          "; see docs/aim.md. Repeatable, as those below; applied in order, after --ops");
+  add(verb, kSever,
+      "Cut through the limb of a bone and nothing else, without a share at its joint; " +
+          fields_of(kSever) +
+          "; detach: take off what comes free, with hats, eyes and axes that move with it, or "
+          "parts=none without them");
+  add(verb, kPuncture, "Bore into the limb of a bone; " + fields_of(kPuncture));
   verb.add_option(
           "--pose",
           "The pose for the options above and for --robot: rest, bind, or a clip at a time in "

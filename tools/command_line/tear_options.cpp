@@ -1,7 +1,10 @@
+#include <algorithm>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "operation/internal/field_ranges.h"
+#include "operation/internal/names.h"
 #include "tools/command_line/number_option.h"
 #include "tools/command_line/options.h"
 #include "tools/written_weights/written_influences.h"
@@ -9,12 +12,10 @@
 namespace sunder::tools {
 namespace {
 
-/// @param name  a result of weight_policy_name().
+/// @param name  one of kNames<WeightPolicy>.
 WeightPolicy weight_policy(const std::string& name) {
-  for (const WeightPolicy policy :
-       {WeightPolicy::pose_exact, WeightPolicy::refit, WeightPolicy::exact})
-    if (name == weight_policy_name(policy)) return policy;
-  return WeightPolicy::barycentric;
+  const auto& names = kNames<WeightPolicy>;
+  return static_cast<WeightPolicy>(std::find(names.begin(), names.end(), name) - names.begin());
 }
 
 /// How new vertices are skinned.
@@ -24,8 +25,9 @@ void add_weight_policy(CLI::App& verb, TearRequest& request) {
           [&request](const std::string& name) { request.weights = weight_policy(name); },
           "How new vertices are skinned if their operation has no 'weights'; see docs/weights.md. "
           "--influences applies to them too")
-      ->check(CLI::IsMember({"barycentric", "pose_exact", "refit", "exact"}))
-      ->default_str("barycentric");
+      ->check(CLI::IsMember(
+          std::vector<std::string>(kNames<WeightPolicy>.begin(), kNames<WeightPolicy>.end())))
+      ->default_str(kNames<WeightPolicy>.front());
   verb.add_option_function<std::string>(
           "--refit-over",
           [&request](const std::string& text) {

@@ -3,23 +3,27 @@
 #include <variant>
 
 #include "io/internal/base_colours.h"
+#include "operation/internal/describe_aimed.h"
 
 namespace sunder::tools {
 namespace {
 
-/// Calls use(name, material) for the field of one operation, if it has one.
+/// Calls use(name, material) for the described fields that are materials.
+template <class Use>
+struct MaterialVisitor {
+  const Use& use;
+
+  void operator()(const Field& field, auto& material, const Material&) const {
+    use(field.name, material);
+  }
+  void operator()(const Field&, const auto&...) const {}
+  void object(const Field&, const auto&) const {}
+};
+
 template <class Operation, class Use>
-void for_material(Operation& of, Use use) {
-  if constexpr (requires { of.options.wall_material; })
-    use("wall_material", of.options.wall_material);
-  else if constexpr (requires { of.cut.cap_material; })
-    use("cap_material", of.cut.cap_material);
-  else if constexpr (requires { of.cap_material; })
-    use("cap_material", of.cap_material);
-  else if constexpr (requires { of.bore.wall_material; })
-    use("wall_material", of.bore.wall_material);
-  else if constexpr (requires { of.wall_material; })
-    use("wall_material", of.wall_material);
+void for_material(Operation& of, const Use& use) {
+  const MaterialVisitor<Use> visitor{use};
+  describe(visitor, of);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "core/internal/find_named.h"
+#include "operation/internal/names.h"
 #include "tools/messages/printed.h"
 #include "tools/model/name_at.h"
 #include "tools/model/named_poses.h"
@@ -24,8 +25,8 @@ std::optional<double> parse_time(std::string_view text) {
 }  // namespace
 
 Result<PoseArgument> parse_pose(const std::string& text, const Character& character) {
-  if (text == "rest") return PoseArgument{RestPose{}, "rest", ""};
-  if (text == "bind") return PoseArgument{BindPose{}, "bind", ""};
+  if (text == kPoseName<RestPose>) return PoseArgument{RestPose{}, text, ""};
+  if (text == kPoseName<BindPose>) return PoseArgument{BindPose{}, text, ""};
   const auto [name, time] = split_name_at(text);
   if (!time)
     return Status::failure(StatusCode::invalid_argument, kNone,

@@ -8,9 +8,10 @@
 #include <utility>
 #include <vector>
 
+#include "operation/internal/names.h"
 #include "tools/messages/json.h"
 #include "tools/model/name_at.h"
-#include "tools/model/quantity.h"
+#include "tools/tear/aimed_fields.h"
 
 namespace sunder::tools {
 namespace {
@@ -32,17 +33,6 @@ Json index_json(const std::string& text) {
   return error == std::errc() && rest == end ? Json(index) : Json(text);
 }
 
-bool is_length(const std::string& key) {
-  return key == "length" || key == "depth" || key == "radius" || key == "width" ||
-         key == "wall_depth" || key == "lip_roll" || key == "chord_tolerance";
-}
-
-Quantity quantity_of(const std::string& key) {
-  if (is_length(key)) return Quantity::length;
-  if (key == "at") return Quantity::share;
-  return key == "turn" || key == "tilt" ? Quantity::angle : Quantity::number;
-}
-
 /// "0.4w" or "40%": widths of the limb.
 std::optional<double> widths_in(std::string_view text) {
   if (text.ends_with('%')) return quantity_in(text, Quantity::share);
@@ -50,11 +40,11 @@ std::optional<double> widths_in(std::string_view text) {
 }
 
 /// The value of a field as the log has it.
-Json value_json(const std::string& key, const std::string& text) {
-  if (key.ends_with("_material")) return index_json(text);
+Json value_json(const AimedField& field, const std::string& text) {
+  if (field.is_material) return index_json(text);
   if (text == "true" || text == "false") return text == "true";
-  if (const auto number = quantity_in(text, quantity_of(key))) return *number;
-  if (is_length(key))
+  if (const auto number = quantity_in(text, field.quantity)) return *number;
+  if (field.takes_widths)
     if (const auto widths = widths_in(text)) return {{"widths", *widths}};
   if (const auto direction = direction_in(text))
     return Json::array({direction->x(), direction->y(), direction->z()});
@@ -74,7 +64,7 @@ std::pair<std::string, std::optional<double>> name_and_number(
 }
 
 Result<Json> pose_json(const std::string& text) {
-  if (text == "rest" || text == "bind") return Json(text);
+  if (text == kPoseName<RestPose> || text == kPoseName<BindPose>) return Json(text);
   const auto [clip, time] = name_and_number(text, time_in);
   if (!time || *time < 0)
     return Status::failure(StatusCode::invalid_argument, kNone,
@@ -86,29 +76,32 @@ Result<Json> pose_json(const std::string& text) {
 
 /// Adds a field and its value, "turn=30", to an operation of a log.
 /// @param material  becomes the name of a material, if the field has one.
-Status add_field(const std::string& field, Json& operation, std::string& material) {
-  const std::size_t equals = field.find('=');
-  const std::string key = field.substr(0, equals);
+Status add_field(const AimedFields& fields, const std::string& text, Json& operation,
+                 std::string& material) {
+  const std::size_t equals = text.find('=');
+  const std::string key = text.substr(0, equals);
   if (key == "pose")
     return Status::failure(StatusCode::malformed_file, kNone,
                            "'pose' is no field; give it as --pose");
   if (operation.contains(key))
     return Status::failure(StatusCode::malformed_file, kNone, "'%.60s' is given twice",
                            key.c_str());
+  const AimedField* const known = fields.find(key);
+  const AimedField field = known != nullptr ? *known : AimedField{key.c_str()};
   const Json value =
-      equals == std::string::npos ? Json(true) : value_json(key, field.substr(equals + 1));
-  if (key.ends_with("_material") && value.is_string()) {
+      equals == std::string::npos ? Json(true) : value_json(field, text.substr(equals + 1));
+  if (field.is_material && value.is_string()) {
     // A name is looked up when the model is loaded; an index in its place checks that the
     // operation has the field.
     material = value.get<std::string>();
     operation[key] = 0;
     return {};
   }
-  if (quantity_of(key) != Quantity::number && value.is_string())
-    return Status::failure(
-        StatusCode::malformed_file, kNone, "%.40s: '%.60s' is no number; expected one%s%s",
-        key.c_str(), field.c_str() + equals + 1, units_of(quantity_of(key)),
-        is_length(key) && key != "chord_tolerance" ? ", or widths of the limb: 0.4w, 40%" : "");
+  if (field.quantity != Quantity::number && value.is_string())
+    return Status::failure(StatusCode::malformed_file, kNone,
+                           "%.40s: '%.60s' is no number; expected one%s%s", key.c_str(),
+                           text.c_str() + equals + 1, units_of(field.quantity),
+                           field.takes_widths ? ", or widths of the limb: 0.4w, 40%" : "");
   operation[key] = value;
   return {};
 }
@@ -142,14 +135,14 @@ Result<TearRequest::Aimed> parse_aimed_option(const std::string& kind, const std
   aimed.option = "--" + kind + " " + text;
   const std::vector<std::string> fields = split(text, ',');
   const auto [bone, share] = name_and_number(fields.front(), share_in);
-  Json operation = {{"op", kind}};
-  operation[kind == "sever" ? "bone" : "around"] = bone;
-  if (share) operation["at"] = *share;
+  const AimedFields& known = aimed_fields(kind);
+  Json operation = {{"op", kind}, {known.bone, bone}};
+  if (share) operation[kShareField] = *share;
   aimed.has_share = share.has_value();
   for (std::size_t i = 1; i < fields.size(); ++i)
-    if (const Status status = add_field(fields[i], operation, aimed.material); !status)
+    if (const Status status = add_field(known, fields[i], operation, aimed.material); !status)
       return status;
-  aimed.has_share |= operation.contains("at");
+  aimed.has_share |= operation.contains(kShareField);
   if (kind == "sever")
     if (const Status status = read_detaching(operation, aimed); !status) return status;
   if (pose) {
