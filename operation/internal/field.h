@@ -29,7 +29,7 @@ struct Field {
   const char* name;  ///< In logs.
   const char* text;  ///< One line of documentation.
   Use use = Use::written;
-  /// What it means to leave the field out, if that is not the value in a new struct.
+  /// What a log without the field means, where that is not the value in a new struct.
   const char* otherwise = nullptr;
   /// Why a field that is given here is refused; such a field is not written. Null: it is taken.
   const char* refusal = nullptr;
@@ -87,7 +87,7 @@ struct List {
   const char* too_few = nullptr;  ///< The error of a shorter list.
 };
 
-/// What describe() is declared for: a struct, constant or not.
+/// `T` is the struct or the constant struct; for the declarations of describe().
 template <class T, class Struct>
 concept Is = std::same_as<std::remove_const_t<T>, Struct>;
 
