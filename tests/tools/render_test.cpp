@@ -367,6 +367,57 @@ TEST(Trace, textures_shadows_and_transparent_surfaces) {
     EXPECT_EQ(trace(shaded, camera, size, threads).colors, below.colors);
 }
 
+/// Stripes finer than pixels: each pixel is the mean of what its samples see.
+TEST(Trace, textures_finer_than_pixels_are_averaged) {
+  Image image{400, 1, {}};
+  for (int i = 0; i < image.width; ++i)
+    for (const int byte : {i % 2 * 255, 0, (i + 1) % 2 * 255, 255})
+      image.rgba.push_back(static_cast<std::uint8_t>(byte));
+  RenderScene scene;
+  scene.materials.resize(1);
+  scene.materials[0].factor.setOnes();
+  scene.materials[0].image = &image;
+  scene.materials[0].is_unlit = true;
+  add_square(0, 1, 0, scene);
+  const Picture picture = trace(scene, {{0, 6, 0.01}, {0, 0, 0}, {0, 0, -1}, 30}, {80, 60});
+  int pure = 0;
+  for (int x = 25; x < 55; ++x) {
+    const Picture::Color& color = picture.colors[static_cast<std::size_t>(30 * 80 + x)];
+    pure += color[0] == 0 || color[2] == 0 ? 1 : 0;
+  }
+  EXPECT_EQ(pure, 0);
+}
+
+/// Pixels of one even surface are shaded once, and look for either the sky or the lamp; a surface
+/// that might be transparent takes all samples and directions everywhere. Both look alike.
+TEST(Trace, even_surfaces_look_as_if_every_sample_were_shaded) {
+  RenderScene scene;
+  scene.materials.resize(2);
+  scene.materials[0].factor = Vec4f(0.8f, 0.7f, 0.6f, 1);
+  scene.materials[1].factor = Vec4f(0.3f, 0.5f, 0.7f, 1);
+  add_square(0, 1, 0, scene);
+  for (RenderTriangle& triangle : scene.triangles)  // As if it were curved.
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3f& corner = triangle.corners[i];
+      triangle.normals[i] = Vec3f(0.3f * corner.x(), 1, 0.3f * corner.z()).normalized();
+    }
+  add_square(0.3f, 0.25f, 1, scene);
+  const Camera camera{{0.5, 3, 2}, {0, 0, 0}, {0, 1, 0}, 35};
+  const PictureSize size{160, 120};
+  const Picture even = trace(scene, camera, size);
+  for (RenderMaterial& material : scene.materials) material.alpha = RenderMaterial::Alpha::blended;
+  const Picture sampled = trace(scene, camera, size);
+  int sum = 0;
+  for (std::size_t i = 0; i < even.colors.size(); ++i)
+    for (std::size_t c = 0; c < 3; ++c) {
+      const int difference = std::abs(even.colors[i][c] - sampled.colors[i][c]);
+      EXPECT_LE(difference, 20) << i % 160 << ", " << i / 160;
+      sum += difference;
+    }
+  EXPECT_LT(sum, static_cast<int>(even.colors.size()) * 3);
+  EXPECT_GT(sum, 0);
+}
+
 TEST(Trace, alpha_counts_only_where_the_material_says_so) {
   const Image clear{1, 1, {255, 255, 255, 60}};
   RenderScene scene;

@@ -18,8 +18,8 @@ namespace sunder::tools {
 namespace {
 
 constexpr PictureSize kStill, kMotion = {480, 360};
-constexpr double kDemoFrame = 0.08;  ///< Seconds per picture of the motion.
-constexpr int kFramesBefore = 6, kFramesOfTear = 6, kFrames = 32;
+constexpr double kDemoFrame = 0.1;  ///< Seconds per picture of the motion.
+constexpr int kFramesBefore = 5, kFramesOfTear = 5, kFrames = 26;
 constexpr double kCloseness = 0.35;   ///< Of the pictures of the tear, as aim() has it.
 constexpr double kSameEnds = 0.02;    ///< A clip whose ends differ less, by the diagonal, runs on.
 constexpr float kFloorRadius = 1.5f;  ///< In diagonals.

@@ -15,7 +15,7 @@
 namespace sunder::tools {
 
 constexpr double kTearFraction = 0.40;  ///< Time of the tear, as a fraction of the first clip.
-constexpr std::size_t kDemoSteps = 36;  ///< Of draw_demo(), for a progress bar.
+constexpr std::size_t kDemoSteps = 30;  ///< Of draw_demo(), for a progress bar.
 constexpr const char* kDemoPictures[] = {"motion", "before", "torn", "wound", "later_1", "later_2"};
 
 /// The pose of a character at a fraction of its first clip; the rest pose if it has none.
@@ -31,7 +31,7 @@ struct DemoTear {
 
 /// Draws the moment before the tear, the tear, the wound from near, and two later moments of the
 /// clip; and motion.png, an animated PNG of the character that is torn while it moves. Lips open
-/// like those of soft tissue. Takes about twelve seconds of processor time.
+/// like those of soft tissue. Takes five to twelve seconds of processor time.
 /// @param budget    not ended while files are written.
 /// @param progress  begins kDemoSteps steps, from `first_step` on.
 [[nodiscard]] Status draw_demo(const DemoTear& tear, const ModelLooks& looks,

@@ -37,7 +37,7 @@ Lighting::Lighting(const Camera& camera) {
     for (std::size_t i = 0; i < kLampRays; ++i) {
       const Vec2d at =
           static_cast<double>(kLampSize) * on_disc(i * kPatterns + pattern, kLampRays * kPatterns);
-      lamp_[pattern][i] =
+      lamp_[pattern * kLampRays + i] =
           Vec3d(middle + at.x() * beside + at.y() * across).normalized().cast<float>();
     }
   }

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 
 #include "tools/render/camera.h"
 
@@ -24,12 +25,14 @@ class Lighting {
   explicit Lighting(const Camera& camera);
 
   /// Directions around a normal in z, more of them where the cosine is larger.
-  [[nodiscard]] const std::array<Vec3f, kSkyRays>& sky(std::size_t pattern) const {
-    return sky_[pattern];
-  }
+  [[nodiscard]] std::span<const Vec3f> sky(std::size_t pattern) const { return sky_[pattern]; }
   /// Directions of places on the lamp, model space.
-  [[nodiscard]] const std::array<Vec3f, kLampRays>& lamp(std::size_t pattern) const {
-    return lamp_[pattern];
+  [[nodiscard]] std::span<const Vec3f> lamp(std::size_t pattern) const {
+    return std::span(lamp_).subspan(pattern * kLampRays, kLampRays);
+  }
+  /// Those of a pattern and of its neighbour.
+  [[nodiscard]] std::span<const Vec3f> lamp_pair(std::size_t pattern) const {
+    return std::span(lamp_).subspan(pattern / 2 * 2 * kLampRays, 2 * kLampRays);
   }
   /// Two directions across a normal, all of unit length, that turn smoothly with it for all that
   /// face the eye: surfaces show no step where a frame would jump.
@@ -46,7 +49,7 @@ class Lighting {
 
  private:
   std::array<std::array<Vec3f, kSkyRays>, kPatterns> sky_;
-  std::array<std::array<Vec3f, kLampRays>, kPatterns> lamp_;
+  std::array<Vec3f, kPatterns * kLampRays> lamp_;
   Light middle_of_lamp_, fill_;
   Vec3f back_, right_, up_;  ///< Towards the eye, and across.
 };

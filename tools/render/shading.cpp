@@ -13,6 +13,7 @@ namespace {
 
 constexpr float kEverywhere = 0.13f;  ///< Light that reaches even closed corners.
 constexpr float kReflected = 0.56f;
+constexpr float kSmooth = 0.995f;  ///< Least cosine of normals that look alike.
 
 std::vector<TriangleTree::Corners> corners_of(const RenderScene& scene) {
   std::vector<TriangleTree::Corners> corners;
@@ -47,6 +48,12 @@ Vec3f shares_of(const std::array<Vec3f, 3>& corners, const Vec3f& place) {
 template <class Values>
 auto mean(const Vec3f& shares, const Values& values) {
   return (shares[0] * values[0] + shares[1] * values[1] + shares[2] * values[2]).eval();
+}
+
+/// Whether texture coordinates are within a texel of each other.
+bool are_within_texel(const Image* image, const Vec2f& a, const Vec2f& b) {
+  return image == nullptr || (std::abs(a.x() - b.x()) * static_cast<float>(image->width) < 1 &&
+                              std::abs(a.y() - b.y()) * static_cast<float>(image->height) < 1);
 }
 
 /// Above 0.7, light is compressed instead of cut.
@@ -153,15 +160,45 @@ Shading::Surface Shading::surface_at(const TriangleTree::Hit& hit, const Vec3f& 
   return surface;
 }
 
+bool Shading::look_alike(const std::array<TriangleTree::Hit, TriangleTree::kBundle>& hits,
+                         const Vec3f& from, const std::array<Vec3f, TriangleTree::kBundle>& along,
+                         float reach) const {
+  if (hits[0].triangle == kNone) return false;
+  const RenderTriangle& first = scene_.triangles[hits[0].triangle];
+  const RenderMaterial& material = scene_.materials[first.material];
+  if (material.is_flesh || material.alpha != RenderMaterial::Alpha::ignored) return false;
+  const Vec3f place = from + hits[0].distance * along[0];
+  const Vec3f shares = shares_of(first.corners, place);
+  const Vec3f normal = mean(shares, first.normals).normalized();
+  const Vec2f uv = mean(shares, first.uvs);
+  const bool has_image = material.image != nullptr || material.emission_image != nullptr;
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    if (hits[i].triangle == kNone) return false;
+    const RenderTriangle& other = scene_.triangles[hits[i].triangle];
+    if (other.material != first.material || other.has_flesh_inside) return false;
+    if (&other == &first && !has_image) continue;
+    const Vec3f other_place = from + hits[i].distance * along[i];
+    const Vec3f other_shares = shares_of(other.corners, other_place);
+    const Vec2f other_uv = mean(other_shares, other.uvs);
+    if (!(normal.dot(mean(other_shares, other.normals).normalized()) > kSmooth) ||
+        !(std::abs(normal.dot(other_place - place)) < reach) ||
+        !are_within_texel(material.image, uv, other_uv) ||
+        !are_within_texel(material.emission_image, uv, other_uv))
+      return false;
+  }
+  return true;
+}
+
 Shading::Light Shading::light_at(const Vec3f& start, const Vec3f& normal, const Vec3f& flat,
-                                 std::size_t pattern, std::size_t sky_rays) const {
+                                 std::span<const Vec3f> sky, std::span<const Vec3f> lamp) const {
   Light light;
   const auto [side, other] = lighting_.across(normal);
-  constexpr std::size_t kMost = Lighting::kSkyRays + Lighting::kLampRays;
-  std::array<Vec3f, kMost> towards, colors;
+  static_assert(Lighting::kSkyRays <= kMostDirections &&
+                2 * Lighting::kLampRays <= kMostDirections);
+  std::array<Vec3f, 2 * kMostDirections> towards, colors;
   std::size_t count = 0;
   // Directions below the triangle say nothing: there, a smooth normal differs from its own.
-  for (const Vec3f& local : std::span(lighting_.sky(pattern)).first(sky_rays)) {
+  for (const Vec3f& local : sky) {
     const Vec3f direction = local.x() * side + local.y() * other + local.z() * normal;
     if (flat.dot(direction) <= 0) continue;
     colors[count] = Lighting::sky_color(direction);
@@ -169,7 +206,7 @@ Shading::Light Shading::light_at(const Vec3f& start, const Vec3f& normal, const 
     towards[count++] = direction;
   }
   const std::size_t of_sky = count;
-  for (const Vec3f& direction : lighting_.lamp(pattern)) {
+  for (const Vec3f& direction : lamp) {
     if (flat.dot(direction) <= 0 || normal.dot(direction) <= 0) continue;
     light.whole_lamp += 1;
     towards[count++] = direction;

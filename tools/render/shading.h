@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <span>
+
 #include "tools/render/lighting.h"
 #include "tools/render/redness.h"
 #include "tools/render/render_scene.h"
@@ -39,6 +42,8 @@ class Shading {
     [[nodiscard]] float share_of_lamp() const;  ///< 0 to 1.
   };
 
+  static constexpr std::size_t kMostDirections = 4;
+
   Shading(const RenderScene& scene, const Lighting& lighting);
 
   /// The first surface on a ray beyond a distance.
@@ -50,9 +55,18 @@ class Shading {
   }
   [[nodiscard]] Surface surface_at(const TriangleTree::Hit& hit, const Vec3f& from,
                                    const Vec3f& along) const;
-  /// Looks in the directions of a pattern of the lighting; of the sky in the first ones.
+  /// Whether one of the surfaces on rays from one place stands for all: they are opaque, of one
+  /// material and smooth, and at most a texel wide.
+  /// @param hits   the first surfaces on the rays.
+  /// @param reach  how far places may be off one plane, metres.
+  [[nodiscard]] bool look_alike(const std::array<TriangleTree::Hit, TriangleTree::kBundle>& hits,
+                                const Vec3f& from,
+                                const std::array<Vec3f, TriangleTree::kBundle>& along,
+                                float reach) const;
+  /// Looks in directions of the sky, around the normal in z, and of the lamp: at most
+  /// kMostDirections of each.
   [[nodiscard]] Light light_at(const Vec3f& start, const Vec3f& normal, const Vec3f& flat,
-                               std::size_t pattern, std::size_t sky_rays) const;
+                               std::span<const Vec3f> sky, std::span<const Vec3f> lamp) const;
   /// Linear RGB that is shown of a surface, each channel below 1.
   [[nodiscard]] Vec3f shown(const Look& look, const Light& light, const Vec3f& along) const;
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 namespace sunder::tools {
 namespace {
@@ -45,6 +46,10 @@ class ByteOfLight {
 
 }  // namespace
 
+float Tile::pixel_size() const {
+  return 2 * view_.up.norm() / static_cast<float>(view_.size.height);
+}
+
 const Tile::Pixel& Tile::pixel_at(int x, int y) const {
   return pixels_[static_cast<std::size_t>((y - top_) * (right_ - left_) + x - left_)];
 }
@@ -68,22 +73,34 @@ void Tile::see(Pixel& pixel, int x, int y) {
     along[sample] = view_.along(x + kPlaces[sample].x(), y + kPlaces[sample].y());
   std::array<TriangleTree::Hit, kSamples> first;
   if (drawn_.coverage.may_show(x, y)) first = shading_.find(view_.eye, along);
+  pixel.is_even =
+      shading_.look_alike(first, view_.eye, along, kSamePlane * pixel_size() * first[0].distance);
+  if (pixel.is_even) {
+    pixel.layers.fill(static_cast<std::uint32_t>(layers_.size()));
+    add_layer(pixel, x, y, along[0], first[0]);
+    for (std::size_t sample = 0; sample < kSamples; ++sample)
+      pixel.depths[sample] = first[sample].distance;
+    return;
+  }
   for (std::size_t sample = 0; sample < kSamples; ++sample) {
     pixel.layers[sample] = static_cast<std::uint32_t>(layers_.size());
     see_sample(pixel, x, y, along[sample], sample, first[sample]);
   }
 }
 
+const Tile::Layer& Tile::add_layer(Pixel& pixel, int x, int y, const Vec3f& along,
+                                   const TriangleTree::Hit& hit) {
+  const Shading::Surface surface = shading_.surface_at(hit, view_.eye, along);
+  const Probe probe{
+      surface.place, surface.smooth, {}, kSamePlane * pixel_size() * hit.distance, false};
+  return layers_.emplace_back(
+      Layer{surface, probe_at(pixel, x, y, probe, surface.start, surface.flat), hit.distance});
+}
+
 void Tile::see_sample(Pixel& pixel, int x, int y, const Vec3f& along, std::size_t sample,
                       TriangleTree::Hit hit) {
-  const float pixel_size = 2 * view_.up.norm() / static_cast<float>(view_.size.height);
   for (int i = 0; hit.triangle != kNone; ++i) {
-    const Shading::Surface surface = shading_.surface_at(hit, view_.eye, along);
-    const Probe probe{
-        surface.place, surface.smooth, {}, kSamePlane * pixel_size * hit.distance, false};
-    layers_.push_back(
-        {surface, probe_at(pixel, x, y, probe, surface.start, surface.flat), hit.distance});
-    if (surface.color.w() >= 0.99f) return;
+    if (add_layer(pixel, x, y, along, hit).look.color.w() >= 0.99f) return;
     if (i + 1 == kMostLayers) break;
     hit = shading_.find(view_.eye, along, hit.distance * 1.00001f);
   }
@@ -110,10 +127,21 @@ std::uint32_t Tile::probe_at(Pixel& pixel, int x, int y, const Probe& wanted, co
       return pixel.first_probe + i;
   }
   // Further surfaces of a pixel look in other directions than the first one.
-  const auto pattern = static_cast<std::size_t>((x & 3) + 4 * (y & 3)) + 5 * pixel.probe_count;
+  const std::size_t pattern =
+      (static_cast<std::size_t>((x & 3) + 4 * (y & 3)) + 5 * pixel.probe_count) %
+      Lighting::kPatterns;
+  std::span<const Vec3f> sky = lighting_.sky(pattern), lamp = lighting_.lamp(pattern);
+  if (wanted.is_floor) {
+    sky = sky.first(sky.size() / 2);
+  } else if (pixel.is_even) {
+    // Its neighbours see the same surface: one looks at the sky, the next one at the lamp.
+    if ((x + y) % 2 == 0)
+      lamp = {};
+    else
+      sky = {}, lamp = lighting_.lamp_pair(pattern);
+  }
   Probe& added = probes_.emplace_back(wanted);
-  added.light = shading_.light_at(start, wanted.normal, flat, pattern % Lighting::kPatterns,
-                                  wanted.is_floor ? Lighting::kSkyRays / 2 : Lighting::kSkyRays);
+  added.light = shading_.light_at(start, wanted.normal, flat, sky, lamp);
   return pixel.first_probe + pixel.probe_count++;
 }
 
@@ -136,8 +164,25 @@ Shading::Light Tile::mean_light(const Probe& probe, int x, int y) const {
   return sum;
 }
 
-void Tile::shade(int x, int y, std::size_t sample, Vec3f& color, float& depth) {
+void Tile::shade(int x, int y, SampledPart& part) {
   const Pixel& pixel = pixel_at(x, y);
+  smooth_.clear();
+  for (std::uint32_t i = 0; i < pixel.probe_count; ++i)
+    smooth_.push_back(mean_light(probes_[pixel.first_probe + i], x, y));
+  if (pixel.is_even) {
+    const Layer& layer = layers_[pixel.layers[0]];
+    part.colors.insert(part.colors.end(), kSamples,
+                       shading_.shown(layer.look, smooth_[layer.probe - pixel.first_probe],
+                                      view_.along(x + 0.5, y + 0.5)));
+    part.depths.insert(part.depths.end(), pixel.depths.begin(), pixel.depths.end());
+    return;
+  }
+  for (std::size_t sample = 0; sample < kSamples; ++sample)
+    shade_sample(pixel, x, y, sample, part.colors.emplace_back(), part.depths.emplace_back());
+}
+
+void Tile::shade_sample(const Pixel& pixel, int x, int y, std::size_t sample, Vec3f& color,
+                        float& depth) {
   const double down = y + kPlaces[sample].y();
   const Vec3f along = view_.along(x + kPlaces[sample].x(), down);
   color.setZero();
@@ -172,14 +217,7 @@ void Tile::draw(int left, int top, Picture& picture) {
   find_surfaces();
   SampledPart part{left, top, right - left, bottom - top, kPlaces, {}, {}};
   for (int y = top; y < bottom; ++y)
-    for (int x = left; x < right; ++x) {
-      const Pixel& pixel = pixel_at(x, y);
-      smooth_.clear();
-      for (std::uint32_t i = 0; i < pixel.probe_count; ++i)
-        smooth_.push_back(mean_light(probes_[pixel.first_probe + i], x, y));
-      for (std::size_t sample = 0; sample < kSamples; ++sample)
-        shade(x, y, sample, part.colors.emplace_back(), part.depths.emplace_back());
-    }
+    for (int x = left; x < right; ++x) shade(x, y, part);
   lay_marks(scene_.marks, part);
   static const ByteOfLight as_byte;
   auto color = part.colors.begin();

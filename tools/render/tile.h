@@ -15,6 +15,7 @@ namespace sunder::tools {
 /// What tiles draw.
 struct TiledScene {
   const RenderScene& scene;
+  const Lighting& lighting;
   const Shading& shading;
   const RenderView& view;
   const Coverage& coverage;
@@ -22,15 +23,20 @@ struct TiledScene {
 };
 
 /// Draws parts of a picture. Rays from the eye find the surfaces in four places of each pixel;
-/// shadows are looked for once per pixel and surface, and averaged over the neighbouring pixels of
-/// the same surface. For one thread; the parts do not depend on each other.
+/// where they find one even surface, it is shaded once. Shadows are looked for once per pixel and
+/// surface, and averaged over the neighbouring pixels of the same surface. For one thread; the
+/// parts do not depend on each other.
 class Tile {
  public:
   static constexpr int kSide = 80;                                ///< Pixels.
   static constexpr std::size_t kSamples = TriangleTree::kBundle;  ///< Per pixel.
 
   explicit Tile(const TiledScene& drawn)
-      : scene_(drawn.scene), shading_(drawn.shading), view_(drawn.view), drawn_(drawn) {}
+      : scene_(drawn.scene),
+        lighting_(drawn.lighting),
+        shading_(drawn.shading),
+        view_(drawn.view),
+        drawn_(drawn) {}
 
   /// Draws the pixels from (left, top) to those kSide farther, or the edge.
   void draw(int left, int top, Picture& picture);
@@ -52,22 +58,32 @@ class Tile {
   struct Pixel {
     std::uint32_t first_probe = 0, probe_count = 0;
     std::array<std::uint32_t, kSamples + 1> layers = {};  ///< Where those of each sample begin.
-    std::array<float, kSamples> floor = {};  ///< How strong shadows on the backdrop are.
-    std::uint32_t floor_probe = 0;           ///< Where there are some.
+    std::array<float, kSamples> floor = {};   ///< How strong shadows on the backdrop are.
+    std::uint32_t floor_probe = 0;            ///< Where there are some.
+    bool is_even = false;                     ///< All samples see one layer.
+    std::array<float, kSamples> depths = {};  ///< Of that layer.
   };
   void find_surfaces();
   void see(Pixel& pixel, int x, int y);
   void see_sample(Pixel& pixel, int x, int y, const Vec3f& along, std::size_t sample,
                   TriangleTree::Hit hit);
+  /// Adds the layer of a surface.
+  const Layer& add_layer(Pixel& pixel, int x, int y, const Vec3f& along,
+                         const TriangleTree::Hit& hit);
   void see_floor(Pixel& pixel, int x, int y, const Vec3f& along, std::size_t sample);
   [[nodiscard]] std::uint32_t probe_at(Pixel& pixel, int x, int y, const Probe& wanted,
                                        const Vec3f& start, const Vec3f& flat);
   [[nodiscard]] Shading::Light mean_light(const Probe& probe, int x, int y) const;
-  void shade(int x, int y, std::size_t sample, Vec3f& color, float& depth);
+  void shade(int x, int y, SampledPart& part);
+  void shade_sample(const Pixel& pixel, int x, int y, std::size_t sample, Vec3f& color,
+                    float& depth);
 
+  /// Metres, at a distance of one metre.
+  [[nodiscard]] float pixel_size() const;
   [[nodiscard]] const Pixel& pixel_at(int x, int y) const;
 
   const RenderScene& scene_;
+  const Lighting& lighting_;
   const Shading& shading_;
   const RenderView& view_;
   const TiledScene& drawn_;

@@ -70,7 +70,7 @@ Picture trace(const RenderScene& scene, const Camera& camera, const PictureSize&
                         static_cast<std::size_t>(size.height));
   const RenderView view = view_of(camera, size);
   const Coverage coverage(scene, view);
-  draw_tiles({scene, shading, view, coverage, middle_of(scene)},
+  draw_tiles({scene, lighting, shading, view, coverage, middle_of(scene)},
              threads == 0 ? std::thread::hardware_concurrency() : threads, picture);
   return picture;
 }
