@@ -11,6 +11,8 @@ export class SunderObject extends Group {
     materials?: Material[];
     /** The material of walls and caps. */
     flesh?: Material | null;
+    /** Whether a submesh of the model itself is one, as in a piece that came off. */
+    isFlesh?: (submesh: { name: string; material: number | null }) => boolean;
   });
   readonly instance: Instance;
   flesh: Material;

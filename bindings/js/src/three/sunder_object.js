@@ -21,6 +21,7 @@ export class SunderObject extends Group {
   #nodes = null;
   #materials;
   #plain = null;
+  #isFlesh;
   #own = [];
   /** Bytes that the last update() will upload. */
   uploadedBytes = 0;
@@ -30,12 +31,14 @@ export class SunderObject extends Group {
    * @param gltf  what GLTFLoader gave for the same file: its materials are used, and copyPose() reads its bones
    * @param materials  by the index in the file, in place of those of gltf
    * @param flesh  the material of walls and caps
+   * @param isFlesh  whether a submesh of the model itself, { name, material }, is one, as in a piece that came off
    */
-  constructor(instance, { gltf = null, materials = materialsOf(gltf), flesh = null } = {}) {
+  constructor(instance, { gltf = null, materials = materialsOf(gltf), flesh = null, isFlesh = () => false } = {}) {
     super();
     this.#instance = instance;
     this.#gltf = gltf;
     this.#materials = materials;
+    this.#isFlesh = isFlesh;
     if (flesh === null) this.#own.push(flesh = new MeshStandardMaterial({ color: 0x8c1c1a, roughness: 0.4, side: DoubleSide }));
     this.flesh = flesh;
     this.name = instance.model.name;
@@ -44,9 +47,9 @@ export class SunderObject extends Group {
 
   get instance() { return this.#instance; }
 
-  #materialOf({ material }, isInside) {
-    if (isInside) return this.flesh;
-    return this.#materials[material] ?? this.#plainMaterial();
+  #materialOf(submesh, isInside) {
+    if (isInside || this.#isFlesh(submesh)) return this.flesh;
+    return this.#materials[submesh.material] ?? this.#plainMaterial();
   }
 
   #plainMaterial() {

@@ -1,0 +1,46 @@
+// The figures of a frame, averaged over some so that they can be read.
+
+const SHOWN_EVERY = 12;
+const milliseconds = (value) => `${value.toFixed(2)} ms`;
+const ROWS = {
+  own: ['Sunder in all', milliseconds],
+  operations: ['Operations', (us) => milliseconds(us / 1000)],
+  settling: ['Settling', (us) => milliseconds(us / 1000)],
+  tissue: ['Tissue', (us) => milliseconds(us / 1000)],
+  drawing: ['Posing', (us) => milliseconds(us / 1000)],
+  upload: ['Copies to buffers', milliseconds],
+  bytes: ['Uploaded', (bytes) => `${(bytes / 1024).toFixed(0)} kB`],
+  vertices: ['Vertices posed', (number) => number.toFixed(0)],
+  instances: ['Instances', (number) => number.toFixed(0)],
+  idle: ['Skipped: nothing moved', (number) => number.toFixed(0)],
+  waiting: ['Skipped: waits for its turn', (number) => number.toFixed(0)],
+  memory: ['Memory', (bytes) => `${(bytes / 1048576).toFixed(0)} MB`],
+};
+
+export class Readout {
+  #cells = {};
+  #sums = {};
+  #frames = 0;
+  /** The means that are shown. */
+  shown = {};
+
+  constructor(list) {
+    for (const [name, [label]] of Object.entries(ROWS)) {
+      const term = document.createElement('dt'), cell = document.createElement('dd');
+      term.textContent = label;
+      list.append(term, cell);
+      this.#cells[name] = cell;
+    }
+  }
+
+  add(figures) {
+    for (const name of Object.keys(ROWS)) this.#sums[name] = (this.#sums[name] ?? 0) + (figures[name] ?? 0);
+    if (++this.#frames < SHOWN_EVERY) return;
+    for (const [name, [, text]] of Object.entries(ROWS)) {
+      this.shown[name] = this.#sums[name] / this.#frames;
+      this.#cells[name].textContent = text(this.shown[name]);
+    }
+    this.#sums = {};
+    this.#frames = 0;
+  }
+}

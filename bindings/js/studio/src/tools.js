@@ -1,0 +1,79 @@
+// What a drag does: each tool begins with a pointer, follows it and ends. Lengths of settings are shares of the size.
+import * as THREE from 'three';
+
+/** Along the line of sight, from above the surface to the depth below it. */
+const bladeAt = (hit, depth) => {
+  const along = (distance) => hit.at.clone().addScaledVector(hit.direction, distance);
+  return { base: along(-depth), tip: along(depth) };
+};
+const stopped = { move() {}, end() {} };
+
+const blade = {
+  name: 'Blade', hint: 'Drag over the surface: it tears below the pointer while it moves.', needsHit: true,
+  begin({ actor, hit, settings, time }) {
+    const depth = settings.depth * actor.size, width = settings.width * actor.size;
+    const stroke = actor.instance.beginStroke(bladeAt(hit, depth), { width, wallDepth: 0.75 * depth });
+    let last = time;
+    return {
+      move({ hit: next, time: now }) {
+        if (!next || now <= last) return;
+        last = now;
+        stroke.extend(bladeAt(next, depth), now);
+      },
+      end() { stroke.end(); },
+    };
+  },
+};
+
+const plane = {
+  name: 'Plane', hint: 'Draw a line across: the plane through it and your eye cuts everything behind it. Cuts are closed.', needsHit: false,
+  begin({ actor, ray }) {
+    const first = actor.object.localRay(ray);
+    let second = null;
+    return {
+      move({ ray: next }) { second = actor.object.localRay(next); },
+      end() {
+        if (!second) return null;
+        const normal = new THREE.Vector3().crossVectors(first.direction, second.direction);
+        if (normal.length() < 0.01) return null;
+        return actor.instance.cut({ point: first.origin, normal: normal.normalize(), caps: true });
+      },
+    };
+  },
+};
+
+const bore = {
+  name: 'Bore', hint: 'Click: a round hole along the line of sight.', needsHit: true,
+  begin({ actor, hit, settings }) {
+    const radius = settings.radius * actor.size, depth = settings.depth * actor.size;
+    const origin = hit.at.clone().addScaledVector(hit.direction, -2 * radius);
+    return { ...stopped, command: actor.instance.drill({ origin, direction: hit.direction, radius, depth: depth + 2 * radius }) };
+  },
+};
+
+const pull = {
+  name: 'Pull', hint: 'Drag the surface: tissue follows, springs back when you let go, and gives way if it is pulled too far.', needsHit: true,
+  begin({ actor, hit, settings }) {
+    const hold = actor.instance.hold(hit, hit.at), distance = hit.distance;
+    return {
+      move({ ray }) {
+        const { origin, direction } = actor.object.localRay(ray);
+        hold.move(origin.addScaledVector(direction, distance));
+      },
+      frame() { if (settings.givesWay) actor.instance.tearOverstretched({ metres: 0.01 * actor.size }); },
+      end() { hold.release(); },
+    };
+  },
+};
+
+const takeOff = {
+  name: 'Take off', hint: 'Click on a part that a cut has freed: it falls.', needsHit: true,
+  begin({ actor, hit }) {
+    return { ...stopped, command: actor.instance.detach({ mesh: hit.mesh, triangle: hit.triangle }) };
+  },
+};
+
+const turn = { name: 'Turn', hint: 'Drag to turn the character, scroll to zoom.', needsHit: false, begin: null };
+
+/** In the order of their keys. */
+export const tools = [turn, blade, plane, bore, pull, takeOff];
