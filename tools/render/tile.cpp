@@ -134,11 +134,11 @@ std::uint32_t Tile::probe_at(Pixel& pixel, int x, int y, const Probe& wanted, co
   if (wanted.is_floor) {
     sky = sky.first(sky.size() / 2);
   } else if (pixel.is_even) {
-    // Its neighbours see the same surface: one looks at the sky, the next one at the lamp.
-    if ((x + y) % 2 == 0)
-      lamp = {};
-    else
-      sky = {}, lamp = lighting_.lamp_pair(pattern);
+    // One looks at the sky, the next one at the lamp: the pixels beside it see the same surface, or
+    // more than one, and then look at both.
+    const bool looks_at_sky = (x + y) % 2 == 0;
+    lamp = looks_at_sky ? std::span<const Vec3f>() : lighting_.lamp_pair(pattern);
+    if (!looks_at_sky) sky = {};
   }
   Probe& added = probes_.emplace_back(wanted);
   added.light = shading_.light_at(start, wanted.normal, flat, sky, lamp);

@@ -46,7 +46,6 @@ async function openFile(page, bytes, name) {
   const input = await page.$('#file');
   await input.uploadFile(path);
 }
-const said = (page) => page.$eval('#said', (element) => element.textContent);
 
 test('a drag tears the moving character; undo closes it', needsChromium, async () => withStudio(async (page) => {
   const clean = await fleshPixels(page);
@@ -65,6 +64,73 @@ test('a drag tears the moving character; undo closes it', needsChromium, async (
   await page.waitForSelector('body[data-operations="0"]');
   await page.evaluate(() => new Promise((resolve) => setTimeout(resolve, 500)));
   assert.ok(await fleshPixels(page) <= clean + 20);
+}));
+
+/** In the page: how far lips of short drags are from the places under the pointer, in sizes of the character. */
+function distancesFromPlaces() {
+  const { studio, stage, settings, tools } = globalThis.studio, { actor } = studio;
+  Object.assign(settings, { width: 0, tension: 0 });
+  studio.isPlaying = false;
+  studio.applySettings();
+  frames(3);
+  /** Edges of one triangle alone, by their vertices. */
+  const openEdges = (mesh) => {
+    const posed = actor.instance.mesh(mesh), { index } = actor.object.children[mesh].geometry, uses = new Map();
+    for (const { firstTriangle, triangleCount } of posed.drawRanges)
+      for (let t = 3 * firstTriangle; t < 3 * (firstTriangle + triangleCount); t += 3)
+        for (let k = 0; k < 3; ++k) {
+          const [a, b] = [index.array[t + k], index.array[t + (k + 1) % 3]].sort((x, y) => x - y), key = a * 2 ** 26 + b;
+          uses.set(key, (uses.get(key) ?? 0) + 1);
+        }
+    return new Set([...uses].filter(([, count]) => count === 1).map(([key]) => key));
+  };
+  const distanceTo = (place, mesh, edges) => {
+    const { positions } = actor.instance.mesh(mesh), at = (v) => [...positions.subarray(3 * v, 3 * v + 3)];
+    let least = Infinity;
+    for (const key of edges) {
+      const a = at(Math.floor(key / 2 ** 26)), b = at(key % 2 ** 26), along = b.map((x, k) => x - a[k]), offset = place.map((x, k) => x - a[k]);
+      const length = along.reduce((sum, x) => sum + x * x, 0), dot = along.reduce((sum, x, k) => sum + x * offset[k], 0);
+      const share = length > 0 ? Math.min(1, Math.max(0, dot / length)) : 0;
+      least = Math.min(least, Math.hypot(...offset.map((x, k) => x - share * along[k])));
+    }
+    return least;
+  };
+  const distances = [];
+  let seed = 7;
+  const random = () => (seed = (seed * 48271) % 2147483647) / 2147483647;
+  for (let i = 0; i < 400 && distances.length < 24; ++i) {
+    const x = 0.3 + 0.4 * random(), y = 0.2 + 0.6 * random(), dx = 0.03 * (random() - 0.5), dy = 0.06 * (random() - 0.5);
+    const events = [0, 1, 2].map((step) => eventAt(x + step * dx, y + step * dy, i + step / 10));
+    const places = events.map((event) => actor.hit(stage.ray(event)));
+    // Only where the pointer stays on one surface: none behind an edge of what is seen.
+    if (places.some((place) => !place || place.mesh !== places[0].mesh || Math.abs(place.distance - places[0].distance) > 0.02 * actor.size)) continue;
+    const [{ mesh }] = places, before = openEdges(mesh);
+    studio.begin(tools[1], events[0]);
+    for (const event of events.slice(1)) {
+      frames(1, 0);
+      studio.move(event);
+    }
+    studio.end();
+    frames(2, 0);
+    const lips = [...openEdges(mesh)].filter((edge) => !before.has(edge));
+    for (const place of places) distances.push(distanceTo(place.place, mesh, lips) / actor.size);
+    studio.goBackTo(0);
+    frames(2, 0);
+  }
+  return distances;
+}
+
+test('a tear goes through the places of the pointer, on every character', needsChromium, async (t) => withStudio(async (page) => {
+  await takeFrames(page);
+  const embedded = JSON.parse(await page.$eval('#characters', (element) => element.textContent)).map(({ glb }) => glb);
+  assert.equal(embedded.length, 3);
+  for (const glb of [...embedded, ...sharedRigs.slice(0, 3).map((path) => readFileSync(path).toString('base64'))]) {
+    await page.evaluate((base64) => globalThis.studio.studio.open(Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0)), 'given'), glb);
+    const distances = await page.evaluate(distancesFromPlaces);
+    t.diagnostic(`${distances.length} places, at most ${Math.max(...distances).toExponential(1)} of the diagonal away`);
+    assert.ok(distances.length >= 12, `${distances.length} places`);
+    assert.ok(Math.max(...distances) < 1e-4, `${Math.max(...distances)} of the diagonal`);
+  }
 }));
 
 /** What the command says of the same log, where it is built. */
@@ -118,6 +184,70 @@ test('200 random actions leave no error, and their log makes the same model else
   assert.equal(String(it.digest), digest);
   const report = digestOfCommand(log);
   if (report) assert.ok(JSON.stringify(report).includes(BigInt(digest).toString(16).padStart(16, '0')), 'natively');
+}));
+
+test('a part that is cut off falls to the floor, and undo puts it back', needsChromium, async () => withStudio(async (page) => {
+  await takeFrames(page);
+  const seen = await page.evaluate(() => {
+    const { studio, tools, stage } = globalThis.studio;
+    studio.isPlaying = false;
+    studio.applySettings();
+    studio.begin(tools[2], eventAt(0.3, 0.25, 0));
+    studio.move(eventAt(0.7, 0.25, 0.1));
+    studio.end();
+    frames(3);
+    const whole = studio.actor.instance.digest;
+    studio.begin(tools[5], eventAt(0.58, 0.17, 1));
+    studio.end();
+    frames(2);
+    const [fallen] = studio.fallen, heights = [fallen.object.position.y];
+    frames(600);
+    heights.push(fallen.object.position.y);
+    let lowest = Infinity;
+    fallen.object.updateMatrixWorld(true);
+    for (const [i, mesh] of fallen.drawn.children.entries()) {
+      const { position } = mesh.geometry.attributes, point = fallen.object.position.clone();
+      for (let v = 0; v < fallen.instance.mesh(i).vertexCount; ++v) lowest = Math.min(lowest, point.fromBufferAttribute(position, v).applyMatrix4(mesh.matrixWorld).y);
+    }
+    frames(60);
+    heights.push(fallen.object.position.y);
+    studio.undo();
+    frames(2);
+    return { heights, lowest, floor: stage.floorHeight, size: studio.actor.size, left: studio.fallen.length, isWhole: studio.actor.instance.digest === whole };
+  });
+  assert.ok(seen.heights[1] < seen.heights[0] - 0.2 * seen.size, 'it fell');
+  assert.ok(Math.abs(seen.heights[2] - seen.heights[1]) < 0.01 * seen.size, 'it lies still');
+  assert.ok(Math.abs(seen.lowest - seen.floor) < 0.02 * seen.size, `on the floor, and not ${seen.lowest - seen.floor} above it`);
+  assert.equal(seen.left, 0);
+  assert.ok(seen.isWhole);
+}));
+
+test('files: a log, a state, a GLB of its own, and files that are damaged', needsChromium, async () => withStudio(async (page) => {
+  const saysAfter = async (bytes, name, pattern) => {
+    await openFile(page, bytes, name);
+    await page.waitForFunction((source) => new RegExp(source).test(document.getElementById('said').textContent), {}, pattern);
+  };
+  await openFile(page, rig('tube').subarray(0, 3000), 'damaged.glb');
+  await page.waitForFunction(() => document.getElementById('said').style.color !== '');
+  assert.equal(await page.evaluate(() => globalThis.studio.studio.name), 'Cactus', 'what was shown stays');
+  await saysAfter('no state', 'damaged.snapshot', 'not a snapshot');
+  await saysAfter('{ "sunder_operations": 1, "operations": [ { "op": "tear" } ] }', 'damaged.json', "'stroke' is missing");
+  assert.equal(await page.evaluate(() => globalThis.studio.studio.actor.instance.undoCounts.undo), 0);
+  const drill = { op: 'drill', pose: 'rest', axis: { origin: [0, 1, 1], direction: [0, 0, -1] }, radius: 0.05, depth: 0.9 };
+  await saysAfter(JSON.stringify({ sunder_operations: 1, operations: [drill] }), 'ops.json', '1 operations of ops.json done');
+  await page.waitForSelector('body[data-operations="1"]');
+  const torn = await page.evaluate(() => {
+    const { actor } = globalThis.studio.studio, state = actor.tissue.save(), { digest } = actor.instance;
+    actor.instance.undo();
+    actor.tissue.update(0);
+    const wasUndone = actor.instance.digest !== digest;
+    const text = (bytes) => btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join(''));
+    return { wasUndone, digest: String(digest), state: text(state), glb: text(actor.instance.toGLB()) };
+  });
+  assert.ok(torn.wasUndone);
+  await saysAfter(Buffer.from(torn.state, 'base64'), 'mine.snapshot', 'mine.snapshot restored');
+  assert.equal(await page.evaluate(() => String(globalThis.studio.studio.actor.instance.digest)), torn.digest);
+  await saysAfter(Buffer.from(torn.glb, 'base64'), 'mine.glb', 'mine: ');
 }));
 
 test('memory stays as it is over tears that are undone', needsChromium, async () => withStudio(async (page) => {

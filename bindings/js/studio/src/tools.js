@@ -12,7 +12,7 @@ const blade = {
   name: 'Blade', hint: 'Drag over the surface: it tears below the pointer while it moves.', needsHit: true,
   begin({ actor, hit, settings, time }) {
     const depth = settings.depth * actor.size, width = settings.width * actor.size;
-    const stroke = actor.instance.beginStroke(bladeAt(hit, depth), { width, wallDepth: 0.75 * depth });
+    const stroke = actor.instance.beginStroke(bladeAt(hit, depth), { width, wallDepth: 0.75 * depth, weights: 'poseExact' });
     let last = time;
     return {
       move({ hit: next, time: now }) {
