@@ -93,6 +93,9 @@ struct TearRequest {
   bool pieces_are_animated = false;
   std::optional<std::filesystem::path> log;  ///< Output file for the log of the applied operations.
   std::optional<std::filesystem::path> picture;       ///< Output file for a picture.
+  std::optional<std::filesystem::path> wound_mask;    ///< Output file for a WoundMask.
+  std::uint32_t wound_mask_size = 1024;               ///< Texels a side.
+  double wound_mask_reach = 0.01;                     ///< Metres.
   std::optional<std::filesystem::path> robot_limits;  ///< URDF: joint limits for `refit`.
   ModelReading reading;
   BudgetLimits budget;

@@ -53,6 +53,7 @@
 #include <sunder/tear/torn_asset.h>
 #include <sunder/tear/torn_model.h>
 #include <sunder/tear/torn_weights.h>
+#include <sunder/tear/wound_mask.h>
 #include <sunder/weights/influences.h>
 
 // A world of double precision cannot hold these bodies.

@@ -94,6 +94,28 @@ void add_further_files(CLI::App& verb, TearRequest& request) {
       ->type_name("FILE");
 }
 
+void add_wound_mask(CLI::App& verb, TearRequest& request) {
+  constexpr NumberRange kReach = {.field = "the value", .least = 1e-6, .most = 1e6, .unit = " m"};
+  constexpr unsigned kMostTexels = 16'384;
+  CLI::Option* const file =
+      verb.add_option("--wound-mask", request.wound_mask,
+                      "File for a texture (PNG) of the wounds, in the model's own texture "
+                      "coordinates: red near lips, green where skin was removed")
+          ->type_name("FILE");
+  takes_count(
+      verb.add_option("--wound-mask-size", request.wound_mask_size, "Texels a side of the texture")
+          ->type_name("TEXELS")
+          ->capture_default_str(),
+      1, kMostTexels)
+      ->needs(file);
+  takes(verb.add_option("--wound-mask-reach", request.wound_mask_reach,
+                        "Distance from a lip, along the skin, at which red ends")
+            ->type_name("METRES")
+            ->capture_default_str(),
+        kReach, Quantity::length)
+      ->needs(file);
+}
+
 /// @param name  a result of influences_name().
 std::uint32_t maximum_influences(const std::string& name) {
   for (const std::uint32_t maximum : {4u, 8u, kAllInfluences})
@@ -170,6 +192,7 @@ CLI::App* add_tear(CLI::App& app, TearRequest& request) {
   verb->add_option("--picture", request.picture,
                    "File for a picture (PNG) of the torn model, with lips and pieces pulled apart")
       ->type_name("FILE");
+  add_wound_mask(*verb, request);
   add_further_files(*verb, request);
   verb->add_flag("--keep-going", request.keep_going,
                  "Report operations that cannot be applied, leave them out and go on");

@@ -31,6 +31,7 @@
 #include "tools/tear/tear_run.h"
 #include "tools/tear/tear_summary.h"
 #include "tools/tear/validation_notes.h"
+#include "tools/tear/wound_picture.h"
 #include "tools/value_of.h"
 #include "tools/verbs.h"
 #include "tools/written_weights/certified_report.h"
@@ -120,6 +121,7 @@ void warn_of_options(const TearRequest& request, const Character& source,
   };
   warn_of_name("--output", request.output, "glb");
   warn_of_name("--picture", request.picture, "png");
+  warn_of_name("--wound-mask", request.wound_mask, "png");
   if (!limits_influences(request.save)) return;
   const std::uint32_t most = check_model(source).most_influences;
   if (request.save.maximum_influences > most)
@@ -168,6 +170,11 @@ ExitCode finish(TearRun& run, Clock::time_point begin) {
   if (request.log) log = format_operations(value_of(run.model.history()));
   if (!log) return complain(request.log->string(), log.error(), ExitCode::usage);
   if (const ExitCode code = write_all(run, report, *log); code != ExitCode::ok) return code;
+  if (request.wound_mask && !request.dry_run) {
+    const ExitCode code = write_wound_mask(run);
+    if (code != ExitCode::ok && code != ExitCode::findings) return code;
+    run.has_findings |= code == ExitCode::findings;
+  }
   if (request.picture && !request.dry_run) {
     run.budget.begin(request.picture->string());
     run.budget.allow_each(2);

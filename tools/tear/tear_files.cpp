@@ -51,6 +51,7 @@ ExitCode check_outputs(const TearRequest& request) {
     outputs.push_back({"--report", *request.report});
   if (request.log) outputs.push_back({"--save-log", *request.log});
   if (request.picture) outputs.push_back({"--picture", *request.picture});
+  if (request.wound_mask) outputs.push_back({"--wound-mask", *request.wound_mask});
   if (const std::string fault = overwriting(inputs, outputs, "; --force allows it");
       !fault.empty()) {
     print_error("sunder: " + fault);

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <sunder/tear/torn_model.h>
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+namespace sunder {
+
+struct WoundMaskOptions {
+  std::uint32_t width = 1024, height = 1024;  ///< Texels of the texture, 1 to 16384.
+  std::uint32_t uv_set = 0;                   ///< Index in Mesh::uv_sets.
+  double reach = 0.01;  ///< Metres along the surface; texels farther from a lip have this distance.
+  /// Texels, 1 to 64. So far beyond the border of a chart texels get the value of the nearest place
+  /// in it, so that a filter that reads across a UV seam finds the wound.
+  std::uint32_t dilation = 4;
+};
+
+/// A part of a texture. Texels are counted from the upper left corner.
+struct TexelRectangle {
+  std::uint32_t left = 0, top = 0;
+  std::uint32_t width = 0, height = 0;  ///< 0: empty.
+
+  [[nodiscard]] bool is_empty() const { return width == 0; }
+  bool operator==(const TexelRectangle&) const = default;
+};
+
+/// What of a mesh the texture cannot show.
+struct WoundMaskNotes {
+  /// Texels whose centre is inside several triangles: mirrored or stacked charts. They show the
+  /// wounds of the triangle with the lowest index alone.
+  std::uint32_t overlapping_texels = 0;
+  /// Triangles that have no area in the texture, or that repeat it: wider than the whole of it.
+  /// They are not painted.
+  std::uint32_t unpainted_triangles = 0;
+};
+
+/// The wounds of a model in the texture of one of its meshes: per texel, the distance to the
+/// nearest lip along the source's surface in bind space. A lip is an edge that operations made a
+/// border, or at which a wall or cap begins. Texture coordinates wrap around: those of a tile
+/// beyond 0 to 1 are painted at the same place of the texture.
+///
+/// Distances are lengths of straight lines in unfolded faces, as in Chen and Han 1990 and Xin and
+/// Wang 2009, from each lip and from the corners that paths bend around; docs/wound_mask.md
+/// describes the method. The same model gives the same bits on every machine. One thread at a time
+/// per object.
+class SUNDER_API WoundMask {
+ public:
+  /// Paints the whole texture.
+  /// @param mesh  index in Character::meshes.
+  /// @return index_out_of_range: no such mesh; not_found: the mesh has no such UV set;
+  ///         invalid_argument: an option is outside its range; limit_exceeded: out of memory.
+  ///         O(triangles + texels + lips x faces within reach of each). Allocates 8 bytes per texel
+  ///         and about 90 per triangle of the model.
+  static Result<WoundMask> create(const TornModel& model, std::uint32_t mesh,
+                                  const WoundMaskOptions& options = {});
+  WoundMask(WoundMask&&) noexcept;
+  WoundMask& operator=(WoundMask&&) noexcept;
+  ~WoundMask();
+
+  /// Follows an operation, an undo or a redo: paints anew the triangles within reach of lips that
+  /// came or went. The result is that of create(), bit for bit.
+  /// @param model   that of create(), or one in the same state.
+  /// @param change  that of the call; calls must not be left out.
+  /// @return the texels that may have changed; invalid_argument: the model has another source, for
+  ///         instance after TornModel::compact(); limit_exceeded: out of memory, then make another
+  ///         mask. O(changed triangles + changed lips x faces within reach of each + texels of
+  ///         these faces).
+  Result<TexelRectangle> update(const TornModel& model, const ChangeRecord& change);
+
+  /// Per texel, row by row from the top: metres, at most WoundMaskOptions::reach. Negative where
+  /// operations removed the skin. Texels that no triangle uses have the reach.
+  [[nodiscard]] std::span<const float> distances() const;
+  /// Whether a triangle, or the dilation beyond one, uses a texel. The index is unchecked.
+  [[nodiscard]] bool is_painted(std::uint32_t column, std::uint32_t row) const;
+  [[nodiscard]] const WoundMaskOptions& options() const;
+  [[nodiscard]] const WoundMaskNotes& notes() const;
+
+ private:
+  struct State;
+  explicit WoundMask(std::unique_ptr<State> state);
+
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace sunder

@@ -1,0 +1,218 @@
+#include <sunder/tear/wound_mask.h>
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "core/internal/out_of_memory.h"
+#include "tear/model/model_access.h"
+#include "tear/wound_mask/beams_of_faces.h"
+#include "tear/wound_mask/spread.h"
+#include "tear/wound_mask/texels.h"
+#include "tear/wound_mask/torn_parts.h"
+
+namespace sunder {
+namespace {
+
+using tear::Beam;
+using tear::Surface;
+using tear::TornParts;
+
+Status check_options(const TornModel& model, std::uint32_t mesh, const WoundMaskOptions& options) {
+  constexpr std::uint32_t kMostTexels = 16384, kMostDilation = 64;
+  const Character& source = model.source();
+  if (mesh >= source.meshes.size())
+    return Status::failure(StatusCode::index_out_of_range, mesh, "mesh %u of %zu", mesh,
+                           source.meshes.size());
+  if (options.uv_set >= source.meshes[mesh].uv_sets.size())
+    return Status::failure(StatusCode::not_found, options.uv_set,
+                           "mesh %u has no texture coordinates %u: it has %zu sets", mesh,
+                           options.uv_set, source.meshes[mesh].uv_sets.size());
+  const auto is_size = [&](std::uint32_t size) { return size >= 1 && size <= kMostTexels; };
+  if (!is_size(options.width) || !is_size(options.height))
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "a wound mask has 1 to %u texels a side, not %u x %u", kMostTexels,
+                           options.width, options.height);
+  if (!(options.reach > 0) || !std::isfinite(static_cast<float>(options.reach)))
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "the reach of a wound mask must be finite and above 0 metres");
+  if (options.dilation < 1 || options.dilation > kMostDilation)
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "the dilation of a wound mask is 1 to %u texels, not %u", kMostDilation,
+                           options.dilation);
+  return {};
+}
+
+/// Grows to hold texels.
+class Bounds {
+ public:
+  void add(std::uint32_t column, std::uint32_t row) {
+    left_ = std::min(left_, column);
+    right_ = std::max(right_, column + 1);
+    top_ = std::min(top_, row);
+    bottom_ = std::max(bottom_, row + 1);
+  }
+  [[nodiscard]] TexelRectangle rectangle() const {
+    if (right_ == 0) return {};
+    return {left_, top_, right_ - left_, bottom_ - top_};
+  }
+
+ private:
+  std::uint32_t left_ = kNone, top_ = kNone, right_ = 0, bottom_ = 0;
+};
+
+void sort_and_unite(std::vector<Index>& values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+}  // namespace
+
+struct WoundMask::State {
+  State(const TornModel& model, std::uint32_t of_mesh, const WoundMaskOptions& wanted)
+      : options(wanted),
+        mesh(of_mesh),
+        faces(model.source()),
+        texels(model.source(), mesh, faces, options),
+        finder(faces.surface),
+        spread(faces, options.reach),
+        beams(static_cast<Index>(faces.shapes.size())),
+        distances(std::size_t{options.width} * options.height, static_cast<float>(options.reach)) {}
+
+  /// Finds the lips of source triangles, ascending, again.
+  /// @param seen  what sees lips that came or went is appended.
+  void renew(std::span<const Index> origins, const TornModel& model, std::vector<Index>& seen);
+  void paint(Index face, Bounds& bounds);
+  [[nodiscard]] Result<TexelRectangle> update(const TornModel& model, const ChangeRecord& change);
+  [[nodiscard]] bool has_triangles_of(const Character& other) const;
+
+  WoundMaskOptions options;
+  std::uint32_t mesh = 0;
+  tear::FlatFaces faces;
+  tear::Texels texels;
+  tear::PartFinder finder;
+  tear::Spread spread;
+  tear::BeamsOfFaces beams;
+  std::unordered_map<Index, TornParts> torn;  ///< Source triangles with lips or removed skin.
+  std::vector<float> distances;
+  std::vector<Beam> seen_by_face;  ///< Scratch of paint().
+};
+
+void WoundMask::State::renew(std::span<const Index> origins, const TornModel& model,
+                             std::vector<Index>& seen) {
+  const tear::SurfaceEditor& editor = tear::ModelAccess::state_of(model).editor;
+  finder.follow(editor.surface());
+  for (const Index origin : origins) {
+    TornParts now = finder.find(origin, faces.surface, editor);
+    const auto known = torn.find(origin);
+    const bool was_torn = known != torn.end(), is_torn = !now.lips.empty() || now.is_cut_away;
+    if (was_torn ? known->second == now : !is_torn) continue;
+    seen.push_back(origin);
+    if (!was_torn || known->second.lips != now.lips) {
+      beams.remove_from(origin, seen);
+      for (const tear::SpreadBeam& beam : spread.from(origin, now.lips)) {
+        beams.add(origin, beam);
+        seen.push_back(beam.face);
+      }
+    }
+    if (is_torn)
+      torn.insert_or_assign(origin, std::move(now));
+    else
+      torn.erase(known);
+  }
+  sort_and_unite(seen);
+}
+
+void WoundMask::State::paint(Index face, Bounds& bounds) {
+  const Surface& surface = faces.surface;
+  if (face < surface.first_triangle[mesh] || face >= surface.first_triangle[mesh + 1]) return;
+  seen_by_face.clear();
+  beams.for_each_in(face, [&](const Beam& beam) { seen_by_face.push_back(beam); });
+  const auto parts = torn.find(face);
+  texels.for_each_of(
+      face - surface.first_triangle[mesh],
+      [&](std::uint32_t column, std::uint32_t row, const std::array<double, 3>& place) {
+        const tear::Flat at = faces.place(face, place);
+        double least = options.reach;
+        for (const Beam& beam : seen_by_face) least = std::min(least, beam.distance(at));
+        const bool is_removed = parts != torn.end() && parts->second.is_removed(place);
+        distances[std::size_t{row} * options.width + column] =
+            static_cast<float>(is_removed ? -least : least);
+        bounds.add(column, row);
+      });
+}
+
+bool WoundMask::State::has_triangles_of(const Character& other) const {
+  const std::vector<Index>& first = faces.surface.first_triangle;
+  if (other.meshes.size() + 1 != first.size()) return false;
+  for (std::size_t i = 0; i < other.meshes.size(); ++i)
+    if (other.meshes[i].triangle_count() != first[i + 1] - first[i]) return false;
+  return true;
+}
+
+Result<TexelRectangle> WoundMask::State::update(const TornModel& model,
+                                                const ChangeRecord& change) {
+  if (!has_triangles_of(model.source()))
+    return Status::failure(StatusCode::invalid_argument, kNone, "the model has another source");
+  const Surface& surface = faces.surface;
+  std::vector<Index> origins;
+  const auto add = [&](std::uint32_t of_mesh, std::uint32_t triangle) {
+    const Index origin = model.source_triangle(of_mesh, triangle),
+                first = surface.first_triangle[of_mesh];
+    if (origin < surface.first_triangle[of_mesh + 1] - first) origins.push_back(first + origin);
+  };
+  for (const MeshChange& of : change.meshes) {
+    for (const RewrittenTriangle& rewritten : of.rewritten) add(of.mesh, rewritten.triangle);
+    for (std::uint32_t i = 0; i < of.triangle_count; ++i) add(of.mesh, of.first_triangle + i);
+  }
+  sort_and_unite(origins);
+  // A triangle keeps its corners where a tear runs along its edge and the other side gets new ones.
+  const std::size_t count = origins.size();
+  for (std::size_t i = 0; i < count; ++i)
+    for (Index h = 3 * origins[i]; h < 3 * origins[i] + 3; ++h)
+      if (surface.twin[h] != kNone) origins.push_back(surface.twin[h] / 3);
+  sort_and_unite(origins);
+  std::vector<Index> seen;
+  renew(origins, model, seen);
+  Bounds bounds;
+  for (const Index face : seen) paint(face, bounds);
+  return bounds.rectangle();
+}
+
+WoundMask::WoundMask(std::unique_ptr<State> state) : state_(std::move(state)) {}
+WoundMask::WoundMask(WoundMask&&) noexcept = default;
+WoundMask& WoundMask::operator=(WoundMask&&) noexcept = default;
+WoundMask::~WoundMask() = default;
+
+Result<WoundMask> WoundMask::create(const TornModel& model, std::uint32_t mesh,
+                                    const WoundMaskOptions& options) {
+  if (const Status status = check_options(model, mesh, options); !status) return status;
+  return or_out_of_memory([&]() -> Result<WoundMask> {
+    if (const Status status = model.unpack(); !status) return status;
+    auto state = std::make_unique<State>(model, mesh, options);
+    std::vector<Index> all(state->faces.shapes.size()), seen;
+    for (Index i = 0; i < all.size(); ++i) all[i] = i;
+    state->renew(all, model, seen);
+    Bounds bounds;
+    for (const Index face : seen) state->paint(face, bounds);
+    return WoundMask(std::move(state));
+  });
+}
+
+Result<TexelRectangle> WoundMask::update(const TornModel& model, const ChangeRecord& change) {
+  return or_out_of_memory([&]() -> Result<TexelRectangle> {
+    if (const Status status = model.unpack(); !status) return status;
+    return state_->update(model, change);
+  });
+}
+
+std::span<const float> WoundMask::distances() const { return state_->distances; }
+bool WoundMask::is_painted(std::uint32_t column, std::uint32_t row) const {
+  return state_->texels.is_owned(std::size_t{row} * state_->options.width + column);
+}
+const WoundMaskOptions& WoundMask::options() const { return state_->options; }
+const WoundMaskNotes& WoundMask::notes() const { return state_->texels.notes(); }
+
+}  // namespace sunder
