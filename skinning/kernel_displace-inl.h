@@ -57,12 +57,12 @@ SUNDER_INLINE Vector times(V factor, const Vector& v) {
 }
 SUNDER_INLINE V largest_of(const Vector& v) { return max(max(abs(v.x), abs(v.y)), abs(v.z)); }
 
-/// `v` scaled to the length of `old`, or to unit length; or `old` if v has no length.
-SUNDER_INLINE Vector at_length(const Vector& v, const Vector& old, bool unit_length) {
+/// at_length() of vectors whose squares underflow or overflow.
+SUNDER_INLINE Vector at_any_length(const Vector& v, const Vector& old, bool unit_length) {
   const V least = set(1e-37f), most = set(3e38f), one = set(1.0f);
   const Vector unit = unit_or(v, old);
   if (unit_length) return unit;
-  const V largest = largest_of(old);  // squares of small numbers would underflow
+  const V largest = largest_of(old);
   const Vector scaled = times(div(one, largest), old);
   const V length =
       if_between(least, largest, most, mul(largest, sqrt(dot(scaled, scaled))), zero());
@@ -70,6 +70,23 @@ SUNDER_INLINE Vector at_length(const Vector& v, const Vector& old, bool unit_len
   return {if_between(least, found, most, mul(length, unit.x), old.x),
           if_between(least, found, most, mul(length, unit.y), old.y),
           if_between(least, found, most, mul(length, unit.z), old.z)};
+}
+
+/// `v` scaled to the length of `old`, or to unit length; or `old` if v has no length.
+SUNDER_INLINE Vector at_length(const Vector& v, const Vector& old, bool unit_length) {
+  // Between these neither the squares nor their quotient leaves the range of floats.
+  const V least = set(1e-18f), most = set(1e18f), one = set(1.0f);
+  const V square = dot(v, v), wanted = unit_length ? one : dot(old, old);
+  const V is_common =
+      if_between(least, square, most, if_between(least, wanted, most, one, zero()), zero());
+  const Vector scaled = times(sqrt(div(wanted, square)), v);
+  if (are_all_positive(is_common)) return scaled;
+  // Each lane chooses for itself, so that its bits do not depend on its neighbours.
+  const Vector other = at_any_length(v, old, unit_length);
+  const V two = set(2.0f);
+  return {if_between(zero(), is_common, two, scaled.x, other.x),
+          if_between(zero(), is_common, two, scaled.y, other.y),
+          if_between(zero(), is_common, two, scaled.z, other.z)};
 }
 
 /// The map of the displaced surface around the vertices from `part` on.

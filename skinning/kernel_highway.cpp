@@ -42,6 +42,7 @@ SUNDER_INLINE V div(V a, V b) { return hn::Div(a, b); }
 SUNDER_INLINE V sqrt(V a) { return hn::Sqrt(a); }
 SUNDER_INLINE V abs(V a) { return hn::Abs(a); }
 SUNDER_INLINE V max(V a, V b) { return hn::Max(a, b); }
+SUNDER_INLINE bool are_all_positive(V a) { return hn::AllTrue(kTag, hn::Gt(a, zero())); }
 SUNDER_INLINE V negate_where_negative(V sign, V value) {
   return hn::IfThenElse(hn::Lt(sign, zero()), hn::Neg(value), value);
 }

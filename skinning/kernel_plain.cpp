@@ -27,6 +27,7 @@ V div(V a, V b) { return a / b; }
 V sqrt(V a) { return std::sqrt(a); }
 V abs(V a) { return std::abs(a); }
 V max(V a, V b) { return std::max(a, b); }
+bool are_all_positive(V a) { return a > 0.0f; }
 V negate_where_negative(V sign, V value) { return sign < 0.0f ? -value : value; }
 V if_between(V least, V value, V most, V inside, V outside) {
   return least < value && value < most ? inside : outside;

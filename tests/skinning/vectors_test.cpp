@@ -37,7 +37,9 @@ TEST(Vectors, all_kinds_give_the_same_bits) {
     for (const SkinningMethod method : {SkinningMethod::linear, SkinningMethod::dual_quaternion})
       for (const double scale : {1.0, 1.4})
         for (const bool unit_length : {false, true}) {
-          const Mesh mesh = test::make_random_skin(random, kind);
+          Mesh mesh = test::make_random_skin(random, kind);
+          for (std::uint32_t v = 0; v < mesh.vertex_count() / 2; v += 7)
+            mesh.normals[v] *= 1e-30f;  // its square underflows
           const auto made = SkinnedMesh::create(source_of(mesh), kind.slots);
           ASSERT_TRUE(made);
           BonePalette palette = *BonePalette::create(kind.slots, kind.morph_targets, method);

@@ -408,6 +408,44 @@ TEST(VertexDisplacements, turn_normals_as_the_displaced_surface_turns) {
     }
 }
 
+TEST(VertexDisplacements, keep_lengths_whose_squares_floats_do_not_hold) {
+  Random random(9);
+  Sheet sheet(random);
+  BonePalette palette = *BonePalette::create(1, 0);
+  ASSERT_TRUE(palette.set(test::in_float({test::random_palette(random, 1)[0]}), {}));
+  sheet.soft.matrices.assign(4, Mat3f::Identity());
+  for (const Vec3d& direction : sheet.directions)
+    sheet.soft.displacements.push_back(with_zero((0.1 * direction).cast<float>()));
+  const VertexDisplacements view = sheet.soft.view();
+  const auto pose_into = [&](PosedArrays& posed, const VertexDisplacements* displacements) {
+    PosedBuffer buffer(posed.target());
+    ASSERT_TRUE(skinned(sheet.mesh, 1).deform(palette, buffer, {}, displacements));
+  };
+  PosedArrays ordinary(sheet.mesh);
+  pose_into(ordinary, &view);
+  const auto factor_of = [](std::uint32_t v) {  // beside one another, and most are ordinary
+    return v % 5 == 1 ? 1e-30f : v % 5 == 3 ? 1e25f : 1.0f;
+  };
+  for (std::uint32_t v = 0; v < sheet.mesh.vertex_count(); ++v) {
+    sheet.mesh.normals[v] *= factor_of(v);
+    sheet.mesh.tangents[v].head<3>() *= factor_of(v);
+  }
+  PosedArrays bones(sheet.mesh), posed(sheet.mesh);
+  pose_into(bones, nullptr);
+  pose_into(posed, &view);
+  for (std::uint32_t v = 0; v < sheet.mesh.vertex_count(); ++v) {
+    const Vec3d normal = posed.normal(v).cast<double>();
+    EXPECT_NEAR(normal.norm() / bones.normal(v).cast<double>().norm(), 1, 1e-6);
+    EXPECT_LT(angle_between(normal / factor_of(v), ordinary.normal(v).cast<double>()), 1e-6);
+    EXPECT_NEAR(posed.tangent(v).head<3>().cast<double>().norm() /
+                    bones.tangent(v).head<3>().cast<double>().norm(),
+                1, 1e-6);
+    if (factor_of(v) != 1.0f) continue;
+    EXPECT_EQ(posed.normal(v), ordinary.normal(v)) << "as without unusual neighbours";
+    EXPECT_EQ(posed.tangent(v), ordinary.tangent(v));
+  }
+}
+
 TEST(VertexDisplacements, gradients_are_turned_by_the_mean_of_the_particles) {
   Random random(8);
   const RandomSkin kind = {300, 20, 4, 0, true, 6};
