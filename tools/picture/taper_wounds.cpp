@@ -11,6 +11,9 @@
 #include <set>
 #include <utility>
 
+#include "tools/picture/surface_points.h"
+#include "tools/picture/unfold_skin.h"
+
 namespace sunder::tools {
 namespace {
 
@@ -19,46 +22,11 @@ constexpr int kRings = 5;       ///< Around lips, whose points follow them.
 constexpr int kPasses = 24;     ///< Over these points.
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// The points of a character's surface in one pose, and which are joined by edges.
-class Points {
- public:
-  Points(const CharacterInstance& instance, const std::vector<DeformedMesh>& meshes)
-      : places_(instance.particles()->point_count(), Vec3f::Zero()) {
-    for (std::uint32_t m = 0; m < meshes.size(); ++m) {
-      const std::span<const std::uint32_t> points = instance.particles()->vertex_points(m);
-      for (std::uint32_t v = 0; v < points.size(); ++v)
-        if (points[v] < places_.size()) places_[points[v]] = meshes[m].positions[v];
-      for (const Triangle& triangle : instance.character().meshes[m].triangles)
-        for (std::size_t c = 0; c < 3 && !is_retired(triangle); ++c) {
-          const std::uint32_t a = points[triangle[c]], b = points[triangle[(c + 1) % 3]];
-          if (a >= places_.size() || b >= places_.size()) continue;
-          edges_.push_back({a, b});
-          edges_.push_back({b, a});
-        }
-    }
-    std::sort(edges_.begin(), edges_.end());
-  }
-
-  [[nodiscard]] const Vec3f& place(std::uint32_t point) const { return places_[point]; }
-  [[nodiscard]] double distance(std::uint32_t a, std::uint32_t b) const {
-    return static_cast<double>((places_[a] - places_[b]).norm());
-  }
-  template <class Visit>
-  void for_each_neighbour(std::uint32_t point, Visit&& visit) const {
-    const auto first =
-        std::lower_bound(edges_.begin(), edges_.end(), std::array<std::uint32_t, 2>{point, 0});
-    for (auto edge = first; edge != edges_.end() && (*edge)[0] == point; ++edge) visit((*edge)[1]);
-  }
-
- private:
-  std::vector<Vec3f> places_;
-  std::vector<std::array<std::uint32_t, 2>> edges_;
-};
-
 /// Distances along lips from the nearest tip, where the two lips of a wound are one point.
 class FromTips {
  public:
-  FromTips(const CharacterInstance& instance, std::span<const Wound> wounds, const Points& points) {
+  FromTips(const CharacterInstance& instance, std::span<const Wound> wounds,
+           const SurfacePoints& points) {
     for (const Wound& wound : wounds)
       for (const LipPair& pair : wound.lips)
         if (pair.left != pair.right) distances_[pair.left] = distances_[pair.right] = kFar;
@@ -91,7 +59,8 @@ class FromTips {
 };
 
 /// The length of a wound: half that of its lips.
-double length_of(const CharacterInstance& instance, const Wound& wound, const Points& points) {
+double length_of(const CharacterInstance& instance, const Wound& wound,
+                 const SurfacePoints& points) {
   std::set<std::uint32_t> of_wound;
   for (const LipPair& pair : wound.lips) of_wound.insert({pair.left, pair.right});
   double length = 0;
@@ -111,7 +80,7 @@ using Moves = std::map<std::uint32_t, Vec3f>;  ///< Of points.
 
 /// Lets the points around those that are moved follow them, the more the shorter the edges between
 /// them are.
-void spread(const Points& points, const std::set<std::uint32_t>& lips, Moves& moves) {
+void spread(const SurfacePoints& points, const std::set<std::uint32_t>& lips, Moves& moves) {
   std::vector<std::uint32_t> ring, followers;
   for (const auto& [point, move] : moves) ring.push_back(point);
   for (int i = 0; i < kRings; ++i) {
@@ -128,9 +97,7 @@ void spread(const Points& points, const std::set<std::uint32_t>& lips, Moves& mo
     for (const std::uint32_t point : followers) {
       Vec3f sum = Vec3f::Zero();
       float weights = 0;
-      points.for_each_neighbour(point, [&](std::uint32_t other) {
-        const auto length = static_cast<float>(points.distance(point, other));
-        const float weight = 1 / std::max(length, std::numeric_limits<float>::min());
+      points.for_each_weighted(point, [&](std::uint32_t other, float weight) {
         const auto found = moves.find(other);
         if (found != moves.end()) sum += weight * found->second;
         weights += weight;
@@ -143,7 +110,7 @@ void spread(const Points& points, const std::set<std::uint32_t>& lips, Moves& mo
 
 void taper_wounds(const CharacterInstance& instance, std::span<const Wound> wounds,
                   const std::vector<DeformedMesh>& closed, std::vector<DeformedMesh>& open) {
-  const Points at_rest(instance, closed), opened(instance, open);
+  const SurfacePoints at_rest(instance, closed), opened(instance, open);
   const FromTips from_tips(instance, wounds, at_rest);
   Moves moves;
   std::set<std::uint32_t> lips;
@@ -173,6 +140,7 @@ void taper_wounds(const CharacterInstance& instance, std::span<const Wound> woun
       if (const auto found = moves.find(points[v]); found != moves.end())
         open[m].positions[v] += found->second;
   }
+  unfold_skin(instance, closed, open);
 }
 
 }  // namespace sunder::tools
