@@ -66,8 +66,20 @@ class Moved {
 /// What unfolding changed.
 struct Unfolded {
   std::vector<Vec3f> moves;        ///< Per point, since the lips were closed.
-  std::set<std::uint32_t> mended;  ///< Points of triangles that were folded, and loose ones.
+  std::set<std::uint32_t> mended;  ///< Points of triangles that were folded, and around them.
 };
+
+/// The corners of triangles, and all points that edges join to them.
+std::set<std::uint32_t> corners_and_ring(const SurfacePoints& surface,
+                                         const std::vector<Triangle>& triangles) {
+  std::set<std::uint32_t> points;
+  for (const Triangle& triangle : triangles)
+    for (const std::uint32_t corner : triangle) {
+      points.insert(corner);
+      surface.for_each_neighbour(corner, [&](std::uint32_t other) { points.insert(other); });
+    }
+  return points;
+}
 
 Unfolded unfolded(const std::set<std::uint32_t>& lips, const SurfacePoints& closed, Moved moved) {
   std::vector<Triangle> folded;
@@ -75,19 +87,12 @@ Unfolded unfolded(const std::set<std::uint32_t>& lips, const SurfacePoints& clos
   Unfolded best{moved.moves, {}};
   std::set<std::uint32_t> loose;
   for (int round = 0; round < kMostRounds && !folded.empty(); ++round) {
-    std::set<std::uint32_t> more, corners;
-    for (const Triangle& triangle : folded)
-      for (const std::uint32_t point : triangle) {
-        more.insert(point);
-        corners.insert(point);
-        if (round > 0)
-          closed.for_each_neighbour(point, [&](std::uint32_t other) { more.insert(other); });
-      }
-    for (const std::uint32_t point : more) {
+    for (const std::uint32_t point : corners_and_ring(closed, folded)) {
       best.mended.insert(point);
-      if (!lips.contains(point) || (round >= kFirstRoundForLips && corners.contains(point)))
-        loose.insert(point);
+      if (!lips.contains(point)) loose.insert(point);
     }
+    if (round >= kFirstRoundForLips)
+      for (const Triangle& triangle : folded) loose.insert(triangle.begin(), triangle.end());
     for (int pass = 0; pass < kLoosePasses; ++pass)
       for (const std::uint32_t point : loose) moved.follow_neighbours(point);
     if (const double area = moved.find_folded(folded); area < least) {
