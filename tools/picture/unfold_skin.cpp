@@ -12,8 +12,9 @@ namespace {
 
 /// A triangle counts as folded if its normal was turned by more than 78 degrees.
 constexpr float kFoldedCosine = 0.2f;
-/// In each round one ring more becomes loose; from the first one for lips on, lips do too.
-constexpr int kMostRounds = 12, kFirstRoundForLips = 6;
+/// In each round points of folded triangles become loose; after a round that did not help, lips
+/// too, and after two in turn, the points around them.
+constexpr int kMostRounds = 12;
 constexpr int kLoosePasses = 16;
 
 /// How the surface moved from one state to another, and where that folded it.
@@ -69,14 +70,15 @@ struct Unfolded {
   std::set<std::uint32_t> mended;  ///< Points of triangles that were folded, and around them.
 };
 
-/// The corners of triangles, and all points that edges join to them.
-std::set<std::uint32_t> corners_and_ring(const SurfacePoints& surface,
-                                         const std::vector<Triangle>& triangles) {
+/// The corners of triangles, and all points that edges join to them if `with_ring`.
+std::set<std::uint32_t> corners(const SurfacePoints& surface,
+                                const std::vector<Triangle>& triangles, bool with_ring) {
   std::set<std::uint32_t> points;
   for (const Triangle& triangle : triangles)
     for (const std::uint32_t corner : triangle) {
       points.insert(corner);
-      surface.for_each_neighbour(corner, [&](std::uint32_t other) { points.insert(other); });
+      if (with_ring)
+        surface.for_each_neighbour(corner, [&](std::uint32_t other) { points.insert(other); });
     }
   return points;
 }
@@ -86,19 +88,19 @@ Unfolded unfolded(const std::set<std::uint32_t>& lips, const SurfacePoints& clos
   double least = moved.find_folded(folded);
   Unfolded best{moved.moves, {}};
   std::set<std::uint32_t> loose;
+  int rounds_in_vain = 0;
   for (int round = 0; round < kMostRounds && !folded.empty(); ++round) {
-    for (const std::uint32_t point : corners_and_ring(closed, folded)) {
+    for (const std::uint32_t point : corners(closed, folded, rounds_in_vain > 1)) {
       best.mended.insert(point);
-      if (!lips.contains(point)) loose.insert(point);
+      if (!lips.contains(point) || rounds_in_vain > 0) loose.insert(point);
     }
-    if (round >= kFirstRoundForLips)
-      for (const Triangle& triangle : folded) loose.insert(triangle.begin(), triangle.end());
     for (int pass = 0; pass < kLoosePasses; ++pass)
       for (const std::uint32_t point : loose) moved.follow_neighbours(point);
-    if (const double area = moved.find_folded(folded); area < least) {
-      least = area;
-      best.moves = moved.moves;
-    }
+    const double area = moved.find_folded(folded);
+    rounds_in_vain = area > least / 2 ? rounds_in_vain + 1 : 0;
+    if (area >= least) continue;
+    least = area;
+    best.moves = moved.moves;
   }
   return best;
 }
