@@ -236,6 +236,25 @@ class Adoption {
   std::vector<bool> waited_;  ///< One per bone.
 };
 
+/// Bones that hold one rigid part of what the bone above them is: the cubes of a head. They share
+/// no place of the surface with other bones, no bone hangs on them, and no clip moves them.
+std::vector<bool> rigid_parts(const PosedSurface& surface, const std::vector<double>& weights) {
+  const Character& character = surface.character();
+  const std::vector<Bone>& bones = character.skeleton.bones;
+  std::vector<bool> is_part;
+  for (const double weight : weights) is_part.push_back(weight > 0);
+  for (Index point = 0; point < surface.surface().point_count(); ++point)
+    for_each_influence(surface, point, [&](Index bone, double weight) {
+      if (weight < 1) is_part[bone] = false;
+    });
+  for (const Bone& bone : bones)
+    if (bone.parent != kNone) is_part[bone.parent] = false;
+  for (const Clip& clip : character.clips)
+    for (const Channel& channel : clip.channels)
+      if (channel.target != ChannelTarget::morph_weights) is_part[channel.index] = false;
+  return is_part;
+}
+
 }  // namespace
 
 BoneTree::BoneTree(const PosedSurface& surface) {
@@ -244,6 +263,7 @@ BoneTree::BoneTree(const PosedSurface& surface) {
   for (Index point = 0; point < surface.surface().point_count(); ++point)
     for_each_influence(surface, point,
                        [&](Index bone, double weight) { weights_[bone] += weight; });
+  is_rigid_part_ = rigid_parts(surface, weights_);
   for (const Bone& bone : bones) parents_.push_back(bone.parent);
   const SharedSurface shared(surface);
   shared_ = shared.by_bone(bones.size());
@@ -274,7 +294,7 @@ std::vector<Index> BoneTree::same_bones(const Skeleton& skeleton, Index bone) co
                          skeleton.bones[i].parent != kNone &&
                          skeleton.bones[i].rest == skeleton.bones[bone].rest;
     const bool is_stand_in = !moves(bone) && skeleton.bones[i].parent == bone &&
-                             skeleton.bones[i].rest == BoneTransform{};
+                             (is_rigid_part_[i] || skeleton.bones[i].rest == BoneTransform{});
     if (i != bone && (is_part || is_stand_in)) same.push_back(i);
   }
   return same;

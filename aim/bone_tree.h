@@ -39,7 +39,8 @@ class BoneTree {
   /// The nearest bone above that moves something; kNone if there is none.
   [[nodiscard]] Index moving_parent(Index bone) const;
   /// A bone and those that have its parent and its rest transform: parts of one limb that a file
-  /// splits by material. For a bone that moves nothing, also its children in the same place.
+  /// splits by material. For a bone that moves nothing, also its children in the same place, and
+  /// those that are parts of it: rigid, without bones below them, and moved by no clip.
   [[nodiscard]] std::vector<Index> same_bones(const Skeleton& skeleton, Index bone) const;
 
  private:
@@ -47,6 +48,7 @@ class BoneTree {
   std::vector<bool> is_adopted_;
   std::vector<std::vector<Index>> children_;
   std::vector<double> weights_;
+  std::vector<bool> is_rigid_part_;
   std::vector<std::vector<SharedBone>> shared_;  ///< Per bone.
 };
 

@@ -130,6 +130,45 @@ TEST(Sever, cuts_skin_and_sleeve_but_neither_club_nor_the_other_arm) {
   }
 }
 
+/// A trunk and a head, both of rigid parts, as programs for blocks write them: the head's bone
+/// moves nothing, its part hangs on a bone of its own elsewhere.
+Character make_block_figure() {
+  Character character = test::make_tube(24, 16, 1);
+  character.skeleton.bones[0].name = "trunk";
+  attach_to(character.meshes[0], 0);
+  const float height = character.meshes[0].positions.back().y();
+  for (const auto& [name, move] :
+       {std::pair("head", Vec3f(0, height, 0)), std::pair("cube", Vec3f(0.3f, 0.1f, 0))}) {
+    Bone bone;
+    bone.name = name;
+    bone.parent = static_cast<std::uint32_t>(character.skeleton.bones.size() - 1);
+    bone.rest.translation = move;
+    character.skeleton.bones.push_back(bone);
+  }
+  Skin& skin = character.skins[0];
+  skin.bones.push_back(2);
+  Affine3f bone_from_bind = Affine3f::Identity();
+  bone_from_bind.translation() = Vec3f(-0.3f, -height - 0.1f, 0);
+  skin.bone_from_bind.push_back(bone_from_bind);
+  add_tube(character, Mesh(character.meshes[0]), "head", 1.0f, Vec3f(0, height + 0.05f, 0));
+  attach_to(character.meshes[1], 1);
+  return character;
+}
+
+TEST(Sever, a_bone_that_moves_nothing_is_the_rigid_parts_below_it) {
+  TornModel model = make_model(make_block_figure());
+  const TearReport report = apply_aimed(model, sever_at("head", 0.2));
+  EXPECT_EQ(torn_meshes(model), (std::set<std::uint32_t>{1}));
+  EXPECT_EQ(report.runs, 1u);
+  Character moved = make_block_figure();  // Here a clip says that the part is a limb of its own.
+  moved.clips.push_back({"wag", 1.0f, {}});
+  moved.clips[0].channels.push_back(
+      {ChannelTarget::rotation, 2, 4, {}, {0.0f, 1.0f}, {0, 0, 0, 1, 0, 0, 1, 0}});
+  TornModel animated = make_model(std::move(moved));
+  EXPECT_THAT(std::string(failure_of(animated, sever_at("head", 0.2)).text()),
+              HasSubstr("moves no vertex"));
+}
+
 TEST(Sever, leans_by_its_tilt_towards_the_view) {
   TornModel model = make_model(make_armed_arm());
   SeverOperation sever = sever_at("rig:ForeArm", 0.5);
