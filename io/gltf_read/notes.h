@@ -6,8 +6,8 @@
 
 namespace sunder::gltf {
 
-/// Collects the notes of the load report. In strict mode, a repair or loss refuses the file
-/// instead.
+/// Collects the notes of the load report. Equal texts about the same place that follow each other
+/// are counted, not repeated. In strict mode, a repair or loss refuses the file instead.
 class Notes {
  public:
   Notes(LoadReport& report, bool strict) : report_(report), strict_(strict) {}
@@ -20,6 +20,9 @@ class Notes {
                const std::string& text, std::uint32_t count = 1);
 
  private:
+  void add(LoadNote::Kind kind, const std::string& place, const std::string& text,
+           std::uint32_t count);
+
   LoadReport& report_;
   bool strict_;
 };
