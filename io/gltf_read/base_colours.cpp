@@ -135,6 +135,7 @@ class Reader {
     const Json& sampler = entry(source_.json, "samplers", member(texture, "sampler"));
     colour.wrap_u = wrap_of(sampler, "wrapS");
     colour.wrap_v = wrap_of(sampler, "wrapT");
+    colour.is_pixelated = member(sampler, "magFilter") == 9728;
     return found;
   }
 

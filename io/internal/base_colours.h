@@ -24,6 +24,7 @@ struct BaseColour {
   /// KHR_texture_transform: where in the images a place (u, v, 1) of the texture coordinates is.
   Eigen::Matrix<float, 2, 3> image_from_uv = Eigen::Matrix<float, 2, 3>::Identity();
   Wrap wrap_u = Wrap::repeat, wrap_v = Wrap::repeat;
+  bool is_pixelated = false;             ///< Magnified images show their pixels as squares.
   float cutoff = 0;                      ///< Nothing is drawn where the image's alpha is below.
   bool is_blended = false;               ///< Alpha mixes the surface with what is behind it.
   bool is_unlit = false;                 ///< KHR_materials_unlit.

@@ -30,7 +30,7 @@ GltfBuilder coloured_strip() {
                             {{"uri", "beside.jpg"}},
                             {{"uri", "../outside.jpg"}},
                             {{"uri", "data:text/plain;base64,AAAA"}}};
-  builder.json["samplers"] = {{{"wrapS", 33071}, {"wrapT", 33648}}};
+  builder.json["samplers"] = {{{"wrapS", 33071}, {"wrapT", 33648}, {"magFilter", 9728}}};
   builder.json["textures"] = {{{"source", 0}, {"sampler", 0}},
                               {{"source", 1}},
                               {{"source", 0}},
@@ -78,6 +78,8 @@ TEST_F(BaseColoursTest, are_those_of_the_file) {
   EXPECT_EQ(first.uv_set, 1u);
   EXPECT_EQ(first.wrap_u, BaseColour::Wrap::clamp);
   EXPECT_EQ(first.wrap_v, BaseColour::Wrap::mirror);
+  EXPECT_TRUE(first.is_pixelated);
+  EXPECT_FALSE(colours.materials[1].is_pixelated);
   EXPECT_EQ(first.cutoff, 0.25f);
   EXPECT_EQ(colours.materials[5].factor, Vec4f(Vec4f::Ones()));
   EXPECT_EQ(colours.materials[5].image, kNone);

@@ -16,6 +16,7 @@
 #include "tools/render/lighting.h"
 #include "tools/render/palette.h"
 #include "tools/render/png_file.h"
+#include "tools/render/texture.h"
 #include "tools/render/trace.h"
 #include "tools/render/triangle_tree.h"
 
@@ -365,6 +366,21 @@ TEST(Trace, textures_shadows_and_transparent_surfaces) {
   EXPECT_LT(brightness(below, 47, 32), brightness(plain, 47, 32) - 20);  // beside the small square
   for (const unsigned threads : {1u, 2u, 5u})
     EXPECT_EQ(trace(shaded, camera, size, threads).colors, below.colors);
+}
+
+TEST(Texture, pixelated_materials_show_the_nearest_pixel) {
+  const Image image{2, 1, {255, 0, 0, 255, 0, 0, 255, 255}};  // red, blue
+  RenderMaterial material;
+  const Vec4f red(1, 0, 0, 1), blue(0, 0, 1, 1);
+  for (const float u : {0.02f, 0.3f, 0.48f, 1.3f, -0.7f}) {
+    material.is_pixelated = true;
+    EXPECT_EQ(sampled(image, material, {u, 0.5f}), red) << u;
+    EXPECT_EQ(sampled(image, material, {u + 0.5f, 0.5f}), blue) << u;
+    material.is_pixelated = false;
+    const Vec4f mixed = sampled(image, material, {u, 0.5f});
+    EXPECT_GT(mixed.z(), 0.01f) << u;
+    EXPECT_NEAR(mixed.x() + mixed.z(), 1, 1e-5) << u;
+  }
 }
 
 /// Stripes finer than pixels: each pixel is the mean of what its samples see.

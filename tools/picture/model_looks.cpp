@@ -62,6 +62,7 @@ RenderMaterial ModelLooks::material_of(const BaseColour& colour, bool& lacks_ima
   if (colour.emission_image == kNone || material.emission_image != nullptr)
     material.emission = colour.emission;
   material.wrap = {wrap_of(colour.wrap_u), wrap_of(colour.wrap_v)};
+  material.is_pixelated = colour.is_pixelated;
   if (colour.cutoff > 0) material.alpha = RenderMaterial::Alpha::cut;
   if (colour.is_blended) material.alpha = RenderMaterial::Alpha::blended;
   material.cutoff = colour.cutoff;

@@ -24,6 +24,7 @@ struct RenderMaterial {
   const Image* image = nullptr;               ///< Outlives the material.
   const Image* emission_image = nullptr;      ///< Outlives the material.
   std::array<Wrap, 2> wrap = {};              ///< Of u and v.
+  bool is_pixelated = false;                  ///< Images show the nearest pixel.
   Alpha alpha = Alpha::ignored;
   float cutoff = 0.5f;
   bool is_unlit = false;  ///< Its colour is shown as it is.

@@ -96,7 +96,7 @@ bool Shading::lets_pass(Index index, const Vec3f& shares, TriangleTree::Ray ray)
   const RenderMaterial& material = scene_.materials[triangle.material];
   float alpha = material.factor.w() * mean(shares, triangle.tints).w();
   if (material.image != nullptr)
-    alpha *= sampled(*material.image, material.wrap, mean(shares, triangle.uvs)).w();
+    alpha *= sampled(*material.image, material, mean(shares, triangle.uvs)).w();
   if (material.alpha == RenderMaterial::Alpha::cut) return alpha < material.cutoff;
   // The shadow of glass would be too dark; a picture needs none.
   return ray == TriangleTree::Ray::shadow ? alpha < 0.5f : alpha <= 0.0f;
@@ -146,10 +146,10 @@ Shading::Surface Shading::surface_at(const TriangleTree::Hit& hit, const Vec3f& 
     surface.is_unlit = material.is_unlit;
     surface.emission = material.emission;
     if (material.image != nullptr)
-      surface.color = surface.color.cwiseProduct(sampled(*material.image, material.wrap, uv));
+      surface.color = surface.color.cwiseProduct(sampled(*material.image, material, uv));
     if (material.emission_image != nullptr && surface.emission.maxCoeff() > 0)
-      surface.emission = surface.emission.cwiseProduct(
-          sampled(*material.emission_image, material.wrap, uv).head<3>());
+      surface.emission =
+          surface.emission.cwiseProduct(sampled(*material.emission_image, material, uv).head<3>());
     if (material.is_skin)
       surface.color.head<3>() = redness_.reddened(surface.color.head<3>(), surface.place);
     if (material.alpha != RenderMaterial::Alpha::blended) surface.color.w() = 1;

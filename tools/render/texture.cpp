@@ -35,24 +35,30 @@ const std::array<float, 256>& linear_from_srgb() {
   return kTable;
 }
 
-Vec4f sampled(const Image& image, const std::array<RenderMaterial::Wrap, 2>& wrap,
-              const Vec2f& uv) {
-  const float x = folded(uv.x(), wrap[0]) * static_cast<float>(image.width) - 0.5f,
-              y = folded(uv.y(), wrap[1]) * static_cast<float>(image.height) - 0.5f;
-  const float left = std::floor(x), top = std::floor(y);
-  const auto& linear = linear_from_srgb();
-  Vec4f sum = Vec4f::Zero();
-  for (int i = 0; i < 4; ++i) {
-    const int column = wrapped(static_cast<int>(left) + (i & 1), image.width, wrap[0]);
-    const int row = wrapped(static_cast<int>(top) + (i >> 1), image.height, wrap[1]);
+Vec4f sampled(const Image& image, const RenderMaterial& material, const Vec2f& uv) {
+  const auto& [wrap_u, wrap_v] = material.wrap;
+  const auto pixel_at = [&, &wrap_u = wrap_u, &wrap_v = wrap_v](float x, float y) {
+    const auto column = wrapped(static_cast<int>(x), image.width, wrap_u),
+               row = wrapped(static_cast<int>(y), image.height, wrap_v);
     const std::uint8_t* const pixel =
         &image.rgba[std::size_t{4} *
                     (static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width) +
                      static_cast<std::size_t>(column))];
-    const float weight =
-        ((i & 1) != 0 ? x - left : 1 - (x - left)) * ((i >> 1) != 0 ? y - top : 1 - (y - top));
-    sum += weight * Vec4f(linear[pixel[0]], linear[pixel[1]], linear[pixel[2]],
-                          static_cast<float>(pixel[3]) / 255);
+    const auto& linear = linear_from_srgb();
+    return Vec4f(linear[pixel[0]], linear[pixel[1]], linear[pixel[2]],
+                 static_cast<float>(pixel[3]) / 255);
+  };
+  const float x = folded(uv.x(), wrap_u) * static_cast<float>(image.width),
+              y = folded(uv.y(), wrap_v) * static_cast<float>(image.height);
+  if (material.is_pixelated) return pixel_at(std::floor(x), std::floor(y));
+  const float left = std::floor(x - 0.5f), top = std::floor(y - 0.5f);
+  const float right_share = x - 0.5f - left, bottom_share = y - 0.5f - top;
+  Vec4f sum = Vec4f::Zero();
+  for (int i = 0; i < 4; ++i) {
+    const auto to_right = static_cast<float>(i & 1), down = static_cast<float>(i >> 1);
+    const float weight = ((i & 1) != 0 ? right_share : 1 - right_share) *
+                         ((i >> 1) != 0 ? bottom_share : 1 - bottom_share);
+    sum += weight * pixel_at(left + to_right, top + down);
   }
   return sum;
 }

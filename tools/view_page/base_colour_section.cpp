@@ -27,6 +27,7 @@ Json material_json(const BaseColour& colour, const BaseColours& all, PageImages&
           {"image", colour.image == kNone ? Json() : Json(images.add(all.images[colour.image]))},
           {"image_from_uv", std::move(image_from_uv)},
           {"wrap", {wrap_name(colour.wrap_u), wrap_name(colour.wrap_v)}},
+          {"is_pixelated", colour.is_pixelated},
           {"cutoff", colour.cutoff}};
 }
 

@@ -1,8 +1,8 @@
 // A model as three.js draws it: base colours, separated pieces and lips.
 import {
   BufferAttribute, ClampToEdgeWrapping, DataTexture, DoubleSide, GLSL3, LinearFilter,
-  LinearMipmapLinearFilter, Matrix3, Mesh, MirroredRepeatWrapping, RepeatWrapping, ShaderMaterial,
-  Texture, Vector4,
+  LinearMipmapLinearFilter, Matrix3, Mesh, MirroredRepeatWrapping, NearestFilter, RepeatWrapping,
+  ShaderMaterial, Texture, Vector4,
 } from 'three';
 import { NONE } from '../../page_parts/src/decode.js';
 import { poseVertices } from '../../page_parts/src/skin.js';
@@ -101,13 +101,13 @@ async function bitmapOf({ media, bytes }) {
 export const decodeImages = (data) =>
   Promise.all(data.images.map((image) => bitmapOf(image).catch(() => null)));
 
-function textureOf(bitmap, [wrapS, wrapT]) {
+function textureOf(bitmap, { wrap: [wrapS, wrapT], is_pixelated }) {
   const texture = new Texture(bitmap);
   texture.wrapS = WRAPS[wrapS];
   texture.wrapT = WRAPS[wrapT];
   texture.flipY = false;
   texture.minFilter = LinearMipmapLinearFilter;
-  texture.magFilter = LinearFilter;
+  texture.magFilter = is_pixelated ? NearestFilter : LinearFilter;
   texture.anisotropy = 4;
   texture.needsUpdate = true;
   return texture;
@@ -163,7 +163,7 @@ export class ShownModel {
       vertexShader, fragmentShader, glslVersion: GLSL3, side: DoubleSide,
       uniforms: {
         ...this.skinned.uniforms, ...this.shared,
-        image: { value: bitmap ? textureOf(bitmap, material.wrap) : blank },
+        image: { value: bitmap ? textureOf(bitmap, material) : blank },
         hasImage: { value: bitmap !== null },
         imageFromUv: { value: new Matrix3().set(...imageFromUv, 0, 0, 1) },
         factor: { value: new Vector4(...factor) },
