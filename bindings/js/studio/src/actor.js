@@ -19,6 +19,7 @@ async function parsed(bytes) {
 export class Actor {
   #layer = null;
   #material = 'skin';
+  isTearing = false;
 
   static async create(bytes, material) {
     const model = await Sunder.load(bytes, { soft: material });
@@ -38,7 +39,8 @@ export class Actor {
     return actor;
   }
 
-  get box() { return new THREE.Box3().setFromObject(this.object); }
+  /** In its own space. */
+  get box() { return this.object.children.reduce((box, { geometry }) => box.union(geometry.boundingBox), new THREE.Box3()); }
 
   play(clip) {
     this.instance.stop();
@@ -66,8 +68,18 @@ export class Actor {
     const { origin, direction } = this.object.localRay(ray), contact = this.instance.raycast(origin, direction);
     return contact && { ...contact, origin, direction, at: new THREE.Vector3(...contact.place) };
   }
-  /** A point of model space in the scene. */
-  toScene(point) { return point.clone().applyMatrix4(this.object.matrixWorld); }
+  /** A tear that goes on for some frames. There is one at a time. @param depth, width  as shares of the size */
+  beginTear(position, { depth, width }) {
+    const stroke = this.instance.beginStroke(position, { width: width * this.size, wallDepth: 0.75 * depth * this.size, weights: 'poseExact' });
+    this.isTearing = true;
+    return {
+      extend: (next, seconds) => stroke.extend(next, seconds),
+      end: () => {
+        this.isTearing = false;
+        return stroke.end();
+      },
+    };
+  }
 
   dispose() {
     this.object.removeFromParent();

@@ -1,6 +1,7 @@
 // Joins the page: controls, keys, pointers, frames.
 import { Sunder } from 'sunder-tear';
 import { kindOf, receiveFiles, save } from './files.js';
+import { Headset } from './headset.js';
 import { HistoryList } from './history_list.js';
 import { Readout } from './readout.js';
 import { Stage } from './stage.js';
@@ -15,6 +16,7 @@ const settings = { width: 0, depth: 0, radius: 0, tension: 0, tissue: 'skin', gi
 const stage = new Stage(element('canvas'));
 const studio = new Studio(stage, settings, say);
 const readout = new Readout(element('readout'));
+const headset = new Headset(stage, studio);
 const history = new HistoryList(element('history'), (count) => studio.goBackTo(count));
 let tool = tools[1];
 
@@ -141,11 +143,20 @@ addEventListener('keydown', (event) => {
   act();
 });
 
+// ---- the headset ----
+
+element('enter-vr').hidden = !await Headset.isThere();
+element('enter-vr').addEventListener('click', () => attempt(async () => {
+  if (headset.session) return headset.session.end();
+  await headset.enter(() => { element('enter-vr').textContent = 'Enter VR'; });
+  element('enter-vr').textContent = 'Leave VR';
+}));
+
 // ---- frames ----
 
 let last = performance.now(), digest = null;
 function frame(now) {
-  const figures = studio.frame((now - last) / 1000);
+  const figures = studio.frame((now - last) / 1000, now / 1000);
   last = now;
   if (figures) {
     readout.add({ ...figures, memory: Sunder.memoryBytes });
@@ -160,6 +171,7 @@ function frame(now) {
     if (studio.actor.duration > 0) element('seek').value = (studio.actor.time % studio.actor.duration) / studio.actor.duration;
     document.body.dataset.operations = undo;
   }
+  headset.show([...readout.lines, [element('said').textContent, '']]);
   stage.draw();
 }
 

@@ -11,6 +11,8 @@ export class Studio {
   actor = null;
   name = '';
   isPlaying = true;
+  /** What else acts on the character in each frame: { act, feel, dispose }. */
+  hands = [];
   get fallen() { return this.#pieces; }
   speed = 1;
 
@@ -30,7 +32,7 @@ export class Studio {
     this.close();
     this.actor = actor;
     this.name = name;
-    this.#stage.scene.add(actor.object);
+    this.#stage.world.add(actor.object);
     this.#stage.show(actor.box);
     this.applySettings();
   }
@@ -52,13 +54,13 @@ export class Studio {
   begin(tool, event) {
     const { actor } = this, ray = this.#stage.ray(event), hit = actor?.hit(ray);
     if (!actor || !tool.begin || (tool.needsHit && !hit)) return false;
-    this.#attempt(() => { this.#use = tool.begin({ actor, ray, hit, settings: this.#settings, time: event.timeStamp / 1000 }); });
+    this.#useTool(() => { this.#use = tool.begin({ actor, ray, hit, settings: this.#settings, time: event.timeStamp / 1000 }); });
     return true;
   }
   move(event) {
     if (!this.#use) return;
     const ray = this.#stage.ray(event);
-    this.#attempt(() => this.#use.move({ ray, hit: this.actor.hit(ray), time: event.timeStamp / 1000 }));
+    this.#useTool(() => this.#use.move({ ray, hit: this.actor.hit(ray), time: event.timeStamp / 1000 }));
   }
   end() {
     const use = this.#use;
@@ -74,24 +76,29 @@ export class Studio {
   /** Does the operations of a log, after those that are done. @returns how many */
   replay(log) { return this.actor.instance.applyLog(log); }
 
+  /** @returns whether it worked */
   #attempt(action) {
     try {
       action();
+      return true;
     } catch (error) {
-      this.#use = null;
       this.#onMessage(error.message, true);
+      return false;
     }
   }
+  #useTool(action) { if (!this.#attempt(action)) this.#use = null; }
 
   // ---- frames ----
 
-  /** @returns the figures of the frame */
-  frame(seconds) {
+  /** @param now  seconds, which the hands' tears get @returns the figures of the frame */
+  frame(seconds, now = performance.now() / 1000) {
     const { actor } = this;
     if (!actor) return null;
-    const began = performance.now(), dt = Math.min(seconds, 0.05) * this.speed;
+    const began = performance.now(), dt = Math.max(0, Math.min(seconds, 0.05)) * this.speed;
+    for (const hand of this.hands) this.#attempt(() => hand.act({ actor, settings: this.#settings, seconds: now }));
     this.#handle(actor.tissue.update(dt));
-    if (this.#use?.frame) this.#attempt(() => this.#use.frame());
+    if (this.#use?.frame) this.#useTool(() => this.#use.frame());
+    for (const hand of this.hands) this.#attempt(() => hand.feel({ actor, settings: this.#settings }));
     const { stats } = actor.tissue, updated = performance.now();
     actor.object.update();
     let bytes = actor.object.uploadedBytes;
@@ -122,7 +129,7 @@ export class Studio {
     const { tissue, instance, gltf, size, model } = this.actor;
     const fallen = new FallingPiece(piece, { tissue, of: model, gltf, operations: instance.undoCounts.undo, size });
     this.#pieces.push(fallen);
-    this.#stage.scene.add(fallen.object);
+    this.#stage.world.add(fallen.object);
     this.#onMessage('A part falls', false);
   }
   /** A piece whose detach is undone is a part of the character again. */
