@@ -312,15 +312,42 @@ test('a part that is cut off falls to the floor, and undo puts it back', needsCh
     }
     frames(60);
     heights.push(fallen.object.position.y);
+    const state = studio.saveState(), text = (bytes) => btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join(''));
+    const cut = String(studio.actor.instance.digest), materials = fallen.drawn.children.map(({ material }) => material.map(({ name }) => name));
     studio.undo();
     frames(2);
-    return { heights, lowest, floor: stage.floorHeight, size: studio.actor.size, left: studio.fallen.length, isWhole: studio.actor.instance.digest === whole };
+    return { state: text(state), cut, materials, lowest, heights, floor: stage.floorHeight, size: studio.actor.size, left: studio.fallen.length, isWhole: studio.actor.instance.digest === whole };
   });
   assert.ok(seen.heights[1] < seen.heights[0] - 0.2 * seen.size, 'it fell');
   assert.ok(Math.abs(seen.heights[2] - seen.heights[1]) < 0.01 * seen.size, 'it lies still');
   assert.ok(Math.abs(seen.lowest - seen.floor) < 0.02 * seen.size, `on the floor, and not ${seen.lowest - seen.floor} above it`);
   assert.equal(seen.left, 0);
   assert.ok(seen.isWhole);
+
+  // The state that was saved before the undo has the part again, where it lay.
+  const open = async (bytes, name, pattern) => {
+    await openFile(page, bytes, name);
+    await page.waitForFunction((source) => new RegExp(source).test(document.getElementById('said').textContent), {}, pattern);
+  };
+  const state = Buffer.from(seen.state, 'base64');
+  await open(state.subarray(0, state.length - 100), 'short.snapshot', 'state is damaged');
+  assert.equal(await page.evaluate(() => globalThis.studio.studio.fallen.length), 0, 'what is refused changes nothing');
+  await open(state, 'fallen.snapshot', 'fallen.snapshot restored');
+  const restored = await page.evaluate(() => {
+    const { studio } = globalThis.studio, height = () => studio.fallen[0].object.position.y;
+    frames(2);
+    const heights = [height()];
+    frames(30);
+    heights.push(height());
+    const names = studio.fallen[0].drawn.children.map(({ material }) => material.map(({ name }) => name)), cut = String(studio.actor.instance.digest);
+    studio.undo();
+    frames(2);
+    return { heights, names, cut, left: studio.fallen.length };
+  });
+  assert.equal(restored.cut, seen.cut);
+  for (const height of restored.heights) assert.ok(Math.abs(height - seen.heights[2]) < 0.01 * seen.size, 'it lies where it lay');
+  assert.deepEqual(restored.names, seen.materials);
+  assert.equal(restored.left, 0);
 }));
 
 test('files: a log, a state, a GLB of its own, and files that are damaged', needsChromium, async () => withStudio(async (page) => {
@@ -371,6 +398,49 @@ test('memory stays as it is over tears that are undone', needsChromium, async ()
   });
   assert.equal(sizes[2], sizes[0], sizes.join());
 }));
+
+test('a finger tears, a second one does not turn the view meanwhile, and one beside the character does', needsChromium, async () => withStudio(async (page) => {
+  const place = await page.evaluate(() => {
+    const { stage, studio } = globalThis.studio;
+    studio.speed = 0.1;
+    const box = document.getElementById('canvas').getBoundingClientRect();
+    const at = (x, y) => ({ clientX: box.left + x * box.width, clientY: box.top + y * box.height });
+    const along = Array.from({ length: 60 }, (_, i) => at(i / 60, 0.5)).filter((point) => studio.actor.hit(stage.ray(point)));
+    const beside = at(0.06, 0.06);
+    return { on: along[Math.floor(along.length / 2)], beside };
+  });
+  const camera = () => page.evaluate(() => globalThis.studio.stage.camera.position.toArray());
+  const nextFrame = () => page.evaluate(() => new Promise(requestAnimationFrame));
+  const { clientX: x, clientY: y } = place.on, start = await camera();
+  const finger = await page.touchscreen.touchStart(x, y - 20);
+  for (let i = 0; i < 5; ++i) {
+    await finger.move(x, y - 20 + 5 * i);
+    await nextFrame();
+  }
+  const second = await page.touchscreen.touchStart(place.beside.clientX, place.beside.clientY);
+  for (let i = 5; i < 9; ++i) {
+    await second.move(place.beside.clientX + 10 * i, place.beside.clientY);
+    await finger.move(x, y - 20 + 5 * i);
+    await nextFrame();
+  }
+  await second.end();
+  await finger.end();
+  await page.waitForSelector('body[data-operations="1"]');
+  const [operation] = JSON.parse(await page.evaluate(() => globalThis.studio.studio.actor.instance.log)).operations;
+  assert.equal(operation.op, 'tear');
+  assert.ok(operation.stroke.length > 2);
+  assert.deepEqual(await camera(), start, 'the view stays');
+  const turning = await page.touchscreen.touchStart(place.beside.clientX, place.beside.clientY);
+  for (let i = 1; i < 6; ++i) {
+    await turning.move(place.beside.clientX + 10 * i, place.beside.clientY);
+    await nextFrame();
+  }
+  await turning.end();
+  assert.notDeepEqual(await camera(), start);
+  assert.equal(await page.$$eval('#history li', (items) => items.length), 1);
+  await page.tap('#undo');
+  await page.waitForSelector('body[data-operations="0"]');
+}, { size: { width: 390, height: 844, hasTouch: true, isMobile: true } }));
 
 test('a telephone shows all of it without scrolling sideways', needsChromium, async () => withStudio(async (page) => {
   assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));

@@ -16,6 +16,7 @@ async function parsed(bytes) {
   }
 }
 
+/** `tissue` is the scene of the character alone, so that its snapshots are; `parts` that of what came off. */
 export class Actor {
   #layer = null;
   #material = 'skin';
@@ -27,6 +28,7 @@ export class Actor {
     actor.#material = material;
     actor.model = model;
     actor.tissue = await Sunder.createScene();
+    actor.parts = await Sunder.createScene();
     actor.instance = actor.tissue.spawn(model);
     actor.instance.prepareToTear();
     if (model.clips.length) actor.play(0);
@@ -85,6 +87,7 @@ export class Actor {
     this.object.removeFromParent();
     this.object.dispose();
     this.tissue.dispose();
+    this.parts.dispose();
     this.model.dispose();
   }
 }

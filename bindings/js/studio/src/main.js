@@ -50,7 +50,7 @@ async function receive({ name, bytes }) {
     const kind = kindOf(bytes);
     if (kind === 'log') say(`${studio.replay(bytes)} operations of ${name} done`, false);
     else if (kind === 'state') {
-      studio.actor.tissue.restore(bytes, [studio.actor.model]);
+      await studio.restoreState(bytes);
       say(`${name} restored`, false);
     } else {
       await open(bytes, name.replace(/\.[^.]*$/, ''));
@@ -108,10 +108,12 @@ element('gives-way').addEventListener('change', ({ target }) => { settings.gives
 const canvas = element('canvas');
 let pointer = null;
 canvas.addEventListener('pointerdown', (event) => {
-  if (event.button !== 0 || pointer !== null || !studio.begin(tool, event)) return;
-  pointer = event.pointerId;
-  canvas.setPointerCapture(pointer);
-  event.stopImmediatePropagation();  // the camera stays
+  if (pointer === null) {
+    if (event.button !== 0 || !studio.begin(tool, event)) return;
+    pointer = event.pointerId;
+    canvas.setPointerCapture(pointer);
+  }
+  event.stopImmediatePropagation();  // the camera stays, also when a second finger comes
 }, { capture: true });
 canvas.addEventListener('pointermove', (event) => { if (event.pointerId === pointer) studio.move(event); });
 for (const type of ['pointerup', 'pointercancel'])
@@ -129,7 +131,7 @@ const saveLog = () => attempt(() => save(studio.actor.instance.log, `${studio.na
 const saveGLB = () => attempt(() => save(studio.actor.instance.toGLB(), `${studio.name}_torn.glb`, 'model/gltf-binary'));
 element('save-log').addEventListener('click', saveLog);
 element('save-glb').addEventListener('click', saveGLB);
-element('save-snapshot').addEventListener('click', () => attempt(() => save(studio.actor.tissue.save(), `${studio.name}.snapshot`)));
+element('save-snapshot').addEventListener('click', () => attempt(() => save(studio.saveState(), `${studio.name}.snapshot`)));
 const fit = () => stage.show(studio.actor.box);
 element('fit').addEventListener('click', fit);
 element('help').addEventListener('click', () => element('helping').showModal());

@@ -1,6 +1,8 @@
 // The character, what is done to it, and one frame after the other.
 import { Actor } from './actor.js';
+import { Sunder } from 'sunder-tear';
 import { FallingPiece } from './falling_piece.js';
+import { packState, unpackState } from './state_file.js';
 
 export class Studio {
   #stage;
@@ -38,8 +40,7 @@ export class Studio {
   }
   close() {
     this.#use = null;
-    for (const piece of this.#pieces) piece.dispose();
-    this.#pieces = [];
+    this.#dropPieces(() => true);
     this.actor?.dispose();
     this.actor = null;
   }
@@ -75,6 +76,25 @@ export class Studio {
   }
   /** Does the operations of a log, after those that are done. @returns how many */
   replay(log) { return this.actor.instance.applyLog(log); }
+
+  /** The character, and where its fallen parts are. */
+  saveState() { return packState({ snapshot: this.actor.tissue.save(), pieces: this.#pieces.map(({ state }) => state) }); }
+  /** Goes back to what was saved of the same character. Nothing changes if it is refused. */
+  async restoreState(bytes) {
+    const { actor } = this, { snapshot, pieces } = unpackState(bytes), models = [];
+    try {
+      for (const { glb } of pieces) models.push(await Sunder.load(glb, { soft: false }));
+      if (actor !== this.actor) throw new Error('another character was opened meanwhile');
+      actor.tissue.restore(snapshot, [actor.model]);
+    } catch (error) {
+      for (const model of models) model.dispose();
+      throw error;
+    }
+    this.#use = null;
+    this.#dropPieces(() => true);
+    pieces.forEach((piece, i) => this.#add(new FallingPiece(models[i], { ...piece, actor })));
+    actor.parts.update(0);
+  }
 
   /** @returns whether it worked */
   #attempt(action) {
@@ -122,20 +142,26 @@ export class Studio {
         this.#onMessage(`${result.facesCrossed} faces torn${parts}`, false);
       }
     }
-    if (this.#pieces.length > before) this.#handle(this.actor.tissue.update(0));  // poses the new pieces for this frame
+    if (this.#pieces.length > before) this.actor.parts.update(0);  // poses them for this frame
   }
 
   #letFall(piece) {
-    const { tissue, instance, gltf, size, model } = this.actor;
-    const fallen = new FallingPiece(piece, { tissue, of: model, gltf, operations: instance.undoCounts.undo, size });
+    const { actor } = this, { mass, inertiaPiece, modelFromPiece } = piece.info;
+    this.#add(new FallingPiece(piece.toModel({ soft: false }), { actor, operations: actor.instance.undoCounts.undo, body: { mass, inertiaPiece, modelFromPiece } }));
+    piece.dispose();
+    this.#onMessage('A part falls', false);
+  }
+  #add(fallen) {
     this.#pieces.push(fallen);
     this.#stage.world.add(fallen.object);
-    this.#onMessage('A part falls', false);
   }
   /** A piece whose detach is undone is a part of the character again. */
   #dropUndone() {
     const done = this.actor.instance.undoCounts.undo;
-    for (const piece of this.#pieces.filter(({ operations }) => operations > done)) piece.dispose();
-    this.#pieces = this.#pieces.filter(({ operations }) => operations <= done);
+    this.#dropPieces(({ operations }) => operations > done);
+  }
+  #dropPieces(isGone) {
+    for (const piece of this.#pieces.filter(isGone)) piece.dispose();
+    this.#pieces = this.#pieces.filter((piece) => !isGone(piece));
   }
 }
