@@ -1,14 +1,15 @@
 // The studio in headless Chromium: what its tools do on characters that move, and what its files say.
 import assert from 'node:assert/strict';
-import { execFileSync } from 'node:child_process';
+import { execFileSync, spawn } from 'node:child_process';
 import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { request } from 'node:http';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import test, { after, before } from 'node:test';
 import { pathToFileURL } from 'node:url';
 import { Sunder } from 'sunder-tear';
 import { fleshPixels, needsChromium, openPage } from './chromium.mjs';
-import { packageFolder, rig, sharedRigs } from './support.mjs';
+import { packageFolder, rig, rigFile, sharedRigs } from './support.mjs';
 
 const folder = mkdtempSync(join(tmpdir(), 'sunder-studio-'));
 const file = join(folder, 'index.html');
@@ -441,6 +442,34 @@ test('a finger tears, a second one does not turn the view meanwhile, and one bes
   await page.tap('#undo');
   await page.waitForSelector('body[data-operations="0"]');
 }, { size: { width: 390, height: 844, hasTouch: true, isMobile: true } }));
+
+test('the server shows a model of the user to this machine, and nothing else', needsChromium, async () => {
+  const server = spawn(process.execPath, [join(packageFolder, 'studio', 'serve.mjs'), file, '--no-browser', rigFile('two_clips')]);
+  try {
+    const address = await new Promise((resolve, reject) => {
+      server.stdout.once('data', (line) => resolve(String(line).trim()));
+      server.once('exit', (code) => reject(new Error(`the server ended with ${code}`)));
+    });
+    const status = (path, headers = {}) => new Promise((resolve, reject) => {
+      request(address + path, { headers, agent: false }, (answer) => { answer.resume(); resolve(answer.statusCode); }).on('error', reject).end();
+    });
+    assert.equal(await status(''), 200);
+    assert.equal(await status('package.json'), 404);
+    assert.equal(await status('', { host: 'elsewhere.example' }), 403);
+    const { page, faults, close } = await openPage({ isOwn: (url) => url === address });
+    try {
+      await page.goto(address);
+      await page.waitForSelector('body[data-operations]');
+      assert.equal(await page.evaluate(() => globalThis.studio.studio.name), 'two_clips');
+      assert.equal(await page.$$eval('#character option', (options) => options.length), 4);
+      assert.deepEqual(faults, []);
+    } finally {
+      await close();
+    }
+  } finally {
+    server.kill();
+  }
+});
 
 test('a telephone shows all of it without scrolling sideways', needsChromium, async () => withStudio(async (page) => {
   assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
