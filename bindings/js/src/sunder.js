@@ -1,8 +1,9 @@
 // The front door: loads the library when it is first needed.
-import { SUNDER_FEATURE_HULLS, SUNDER_FEATURE_THREADS } from '../generated/calls.js';
+import { SUNDER_FEATURE_HULLS, SUNDER_FEATURE_THREADS, sunder_cutting_resistance } from '../generated/calls.js';
 import { initialise, library } from './library.js';
 import { MATERIAL_NAMES, describeMaterial, materialOf } from './materials.js';
 import { Model } from './model.js';
+import { fieldsOf, triple } from './options.js';
 import { Scene } from './scene.js';
 
 export const Sunder = {
@@ -37,6 +38,17 @@ export const Sunder = {
   tensionForGap(material, length, gap) {
     const calls = library();
     return calls.sunder_tension_for_gap(materialOf(calls, material), length, gap);
+  },
+  /** The force in newtons on a blade, three numbers against its motion. @param tissue  { toughness, thickness, friction, greatest } */
+  bladeForce({ lengthTorn, depth, motion }, tissue = {}) {
+    const calls = library(), m = calls.memory, mark = m.mark();
+    try {
+      const force = m.room(24);
+      calls.sunder_blade_force(fieldsOf(sunder_cutting_resistance, tissue), lengthTorn, depth, triple(motion, 'motion'), force);
+      return m.f64s(force, 3);
+    } finally {
+      m.release(mark);
+    }
   },
   /** Bytes that the library has taken of memory. It never gives them back, but uses them again. */
   get memoryBytes() { return library().memory.buffer.byteLength; },

@@ -56,6 +56,16 @@ test('what is written into a struct is read from it, in the same bytes', async (
   m.release(mark);
 });
 
+test('the force on a blade is against its motion, and at most what is asked', async () => {
+  await Sunder.init();
+  const step = { lengthTorn: 0.01, depth: 0.004, motion: { x: 0.01, y: 0, z: 0 } }, tissue = { toughness: 2000, thickness: 0.002, friction: 20 };
+  const [x, y, z] = Sunder.bladeForce(step, tissue);
+  assert.ok(Math.abs(x + 4.08) < 1e-12, '2000 J/m^2 over 2 mm, and 20 N/m over 4 mm');
+  assert.deepEqual([y + 0, z + 0], [0, 0]);
+  assert.deepEqual(Sunder.bladeForce(step, { ...tissue, greatest: 3 })[0], -3);
+  assert.throws(() => Sunder.bladeForce({ ...step, lengthTorn: -1 }), /length torn is -1/);
+});
+
 test('a default struct is refused if its size is another one', async () => {
   await Sunder.init();
   const { calls } = Sunder, m = calls.memory, mark = m.mark();

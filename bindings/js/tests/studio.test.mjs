@@ -1,14 +1,15 @@
 // The studio in headless Chromium: what its tools do on characters that move, and what its files say.
 import assert from 'node:assert/strict';
-import { execFileSync } from 'node:child_process';
+import { execFileSync, spawn } from 'node:child_process';
 import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { request } from 'node:http';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import test, { after, before } from 'node:test';
 import { pathToFileURL } from 'node:url';
 import { Sunder } from 'sunder-tear';
 import { fleshPixels, needsChromium, openPage } from './chromium.mjs';
-import { packageFolder, rig, sharedRigs } from './support.mjs';
+import { packageFolder, rig, rigFile, sharedRigs } from './support.mjs';
 
 const folder = mkdtempSync(join(tmpdir(), 'sunder-studio-'));
 const file = join(folder, 'index.html');
@@ -17,8 +18,8 @@ before(() => execFileSync(process.execPath, [join(packageFolder, 'studio', 'buil
 after(() => rmSync(folder, { recursive: true, force: true }));
 
 /** Opens the page from disk, calls back, and expects that nothing failed. */
-async function withStudio(use, size = { width: 1280, height: 720 }) {
-  const { page, faults, close } = await openPage({ isOwn: (url) => url === pathToFileURL(file).href });
+async function withStudio(use, { size = { width: 1280, height: 720 }, prepare } = {}) {
+  const { page, faults, close } = await openPage({ isOwn: (url) => url === pathToFileURL(file).href, prepare });
   try {
     await page.setViewport(size);
     await page.goto(pathToFileURL(file).href);
@@ -133,8 +134,8 @@ test('a tear goes through the places of the pointer, on every character', needsC
   }
 }));
 
-/** What the command says of the same log, where it is built. */
-function digestOfCommand(log) {
+/** What the command says of the same log, where it is built; null where it is not. */
+function reportOfCommand(log) {
   const command = process.env.SUNDER_COMMAND ?? join(packageFolder, '..', '..', 'build', 'release', 'tools', 'sunder');
   if (!existsSync(command)) return null;
   const at = (name) => join(folder, name);
@@ -142,6 +143,15 @@ function digestOfCommand(log) {
   writeFileSync(at('ops.json'), log);
   execFileSync(command, ['tear', at('cactus.glb'), '--ops', at('ops.json'), '-o', at('torn.glb'), '--report', at('report.json'), '-q']);
   return JSON.parse(readFileSync(at('report.json'), 'utf8'));
+}
+
+/** A log of the cactus makes the same model here, and by the command. */
+async function expectDigest(log, operations, digest) {
+  const scene = await Sunder.createScene(), it = scene.spawn(await Sunder.load(cactus(), { soft: 'skin' }));
+  assert.equal(it.applyLog(log), operations);
+  assert.equal(String(it.digest), digest);
+  const report = reportOfCommand(log);
+  if (report) assert.ok(JSON.stringify(report).includes(BigInt(digest).toString(16).padStart(16, '0')), 'natively');
 }
 
 test('200 random actions leave no error, and their log makes the same model elsewhere', needsChromium, async (t) => withStudio(async (page) => {
@@ -179,12 +189,104 @@ test('200 random actions leave no error, and their log makes the same model else
   t.diagnostic(`${JSON.stringify(done)}; ${operations} operations are left`);
   assert.equal(Object.keys(done).length, 5, 'each tool took a drag');
   assert.ok(operations > 5);
-  const scene = await Sunder.createScene(), it = scene.spawn(await Sunder.load(cactus(), { soft: 'skin' }));
-  assert.equal(it.applyLog(log), operations);
-  assert.equal(String(it.digest), digest);
-  const report = digestOfCommand(log);
-  if (report) assert.ok(JSON.stringify(report).includes(BigInt(digest).toString(16).padStart(16, '0')), 'natively');
+  await expectDigest(log, operations, digest);
 }));
+
+/** An emulated headset in place of the browser's own WebXR. */
+const wearHeadset = async (page) => {
+  await page.evaluateOnNewDocument(readFileSync(join(packageFolder, 'node_modules', 'iwer', 'build', 'iwer.min.js'), 'utf8'));
+  await page.evaluateOnNewDocument(() => {
+    globalThis.device = new IWER.XRDevice(IWER.metaQuest3, { stereoEnabled: true });
+    device.installRuntime({ forceInstall: true });
+  });
+};
+/** In the page, in a session: helpers that move the right hand, whose blade points away from the user. */
+function holdScalpel() {
+  const { stage, studio } = globalThis.studio, { actor } = studio, { instance } = actor, session = stage.renderer.xr.getSession(), hand = device.controllers.right;
+  globalThis.pulses = [];
+  for (const { gamepad } of session.inputSources)
+    gamepad.hapticActuators[0].pulse = (value, duration) => { pulses.push({ value, duration }); return Promise.resolve(true); };
+  globalThis.xrFrames = async (count) => { for (let i = 0; i < count; ++i) await new Promise((resolve) => session.requestAnimationFrame(resolve)); };
+  /** Puts the tip at a point of the room, and lets the page make a frame of it. */
+  globalThis.tipAt = async (x, y, z) => {
+    hand.quaternion.set(0, 0, 0, 1);
+    hand.position.set(x, y, z + 0.14);
+    await xrFrames(2);
+  };
+  const inRoom = (place) => actor.object.localToWorld(stage.world.position.clone().fromArray(place)).toArray();
+  /** Where the front of the trunk is, in the room, at a height that is a share of the character. */
+  globalThis.front = (share) => {
+    const { min, max } = actor.box, y = min.y + share * (max.y - min.y);
+    const hits = Array.from({ length: 40 }, (_, i) => instance.raycast([min.x + (max.x - min.x) * i / 40, y, max.z + 1], [0, 0, -1])).filter(Boolean);
+    return inRoom(hits[Math.floor(hits.length / 2)].place);
+  };
+  /** How far the surface is in front of a point of the room. */
+  globalThis.before = (point) => {
+    const { x, y } = actor.object.worldToLocal(stage.world.position.clone().fromArray(point));
+    return inRoom(instance.raycast([x, y, actor.box.max.z + 1], [0, 0, -1]).place)[2] - point[2];
+  };
+}
+
+test('in a headset a hand tears and pulls the character, and feels it', needsChromium, async (t) => withStudio(async (page) => {
+  assert.equal(await page.$eval('#enter-vr', (button) => button.hidden), false);
+  await page.click('#enter-vr');
+  await page.waitForFunction(() => globalThis.studio.stage.renderer.xr.isPresenting && globalThis.studio.stage.renderer.xr.getCamera().cameras.length === 2);
+  await page.evaluate(holdScalpel);
+  const seen = await page.evaluate(async () => {
+    const { stage, studio, settings } = globalThis.studio, { actor } = studio, { instance } = actor;
+    studio.speed = 0.1;  // because few frames are drawn per second here
+    await xrFrames(3);
+    const eyes = stage.renderer.xr.getCamera().cameras.map(({ matrixWorld, viewport }) => ({ x: matrixWorld.elements[12], left: viewport.x }));
+    const [x, y, z] = front(0.5);
+    device.controllers.right.updateButtonValue('trigger', 1);
+    await tipAt(x, y + 0.06, z + 0.1);
+    const far = { operations: instance.undoCounts.undo, pulses: pulses.length, isTearing: actor.isTearing };
+    for (let i = 0; i <= 12; ++i) await tipAt(x + 0.002 * i, y + 0.06 - 0.01 * i, z - 0.05);
+    const during = { isTearing: actor.isTearing, pulses: pulses.splice(0) };
+    await tipAt(x, y, z + 0.1);
+    device.controllers.right.updateButtonValue('trigger', 0);
+    await xrFrames(2);
+    const torn = { log: instance.log, digest: String(instance.digest), operations: instance.undoCounts.undo, isTearing: actor.isTearing };
+
+    settings.givesWay = studio.isPlaying = false;
+    studio.speed = 1;
+    studio.applySettings();
+    const pulled = front(0.3);
+    await tipAt(...pulled);
+    device.controllers.right.updateButtonValue('squeeze', 1);
+    for (let i = 1; i <= 10; ++i) await tipAt(pulled[0], pulled[1], pulled[2] + 0.01 * i);
+    await xrFrames(20);
+    const follows = before(pulled);
+    device.controllers.right.updateButtonValue('squeeze', 0);
+    await xrFrames(30);
+    const back = before(pulled);
+
+    device.controllers.right.updateButtonValue('a-button', 1);
+    await xrFrames(3);
+    const undone = instance.undoCounts;
+    return { eyes, far, during, torn, follows, back, undone, shown: { ...globalThis.studio.readout.shown } };
+  });
+  t.diagnostic(`${seen.during.pulses.length} pulses, at most ${Math.max(...seen.during.pulses.map(({ value }) => value)).toFixed(2)}; tissue follows ${seen.follows.toFixed(3)} m`);
+  const [left, right] = seen.eyes;
+  assert.ok(Math.abs(right.x - left.x - 0.063) < 0.002, 'eyes are apart');
+  assert.ok(right.left > left.left, 'side by side');
+  assert.deepEqual(seen.far, { operations: 0, pulses: 0, isTearing: false }, 'a pressed blade in the air does nothing');
+  assert.ok(seen.during.isTearing);
+  assert.ok(seen.during.pulses.length >= 8);
+  assert.ok(seen.during.pulses.every(({ value, duration }) => value > 0 && value <= 1 && duration > 0));
+  assert.ok(Math.max(...seen.during.pulses.map(({ value }) => value)) > 0.3, 'tissue resists while it is torn');
+  assert.equal(seen.torn.isTearing, false);
+  assert.equal(seen.torn.operations, 1);
+  await expectDigest(seen.torn.log, 1, seen.torn.digest);
+  assert.ok(seen.follows > 0.03 && seen.follows < 0.12, `tissue follows ${seen.follows} m`);
+  assert.ok(seen.back < 0.3 * seen.follows, 'and springs back');
+  assert.deepEqual(seen.undone, { undo: 0, redo: 1 });
+  assert.ok(seen.shown.own > 0 && seen.shown.vertices > 0, 'the read-out goes on');
+
+  await page.evaluate(() => globalThis.studio.stage.renderer.xr.getSession().end());
+  await page.waitForFunction(() => document.getElementById('enter-vr').textContent === 'Enter VR');
+  assert.deepEqual(await page.evaluate(() => [globalThis.studio.stage.world.scale.x, globalThis.studio.studio.hands.length]), [1, 0]);
+}, { size: { width: 480, height: 360 }, prepare: wearHeadset }));
 
 test('a part that is cut off falls to the floor, and undo puts it back', needsChromium, async () => withStudio(async (page) => {
   await takeFrames(page);
@@ -211,15 +313,42 @@ test('a part that is cut off falls to the floor, and undo puts it back', needsCh
     }
     frames(60);
     heights.push(fallen.object.position.y);
+    const state = studio.saveState(), text = (bytes) => btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join(''));
+    const cut = String(studio.actor.instance.digest), materials = fallen.drawn.children.map(({ material }) => material.map(({ name }) => name));
     studio.undo();
     frames(2);
-    return { heights, lowest, floor: stage.floorHeight, size: studio.actor.size, left: studio.fallen.length, isWhole: studio.actor.instance.digest === whole };
+    return { state: text(state), cut, materials, lowest, heights, floor: stage.floorHeight, size: studio.actor.size, left: studio.fallen.length, isWhole: studio.actor.instance.digest === whole };
   });
   assert.ok(seen.heights[1] < seen.heights[0] - 0.2 * seen.size, 'it fell');
   assert.ok(Math.abs(seen.heights[2] - seen.heights[1]) < 0.01 * seen.size, 'it lies still');
   assert.ok(Math.abs(seen.lowest - seen.floor) < 0.02 * seen.size, `on the floor, and not ${seen.lowest - seen.floor} above it`);
   assert.equal(seen.left, 0);
   assert.ok(seen.isWhole);
+
+  // The state that was saved before the undo has the part again, where it lay.
+  const open = async (bytes, name, pattern) => {
+    await openFile(page, bytes, name);
+    await page.waitForFunction((source) => new RegExp(source).test(document.getElementById('said').textContent), {}, pattern);
+  };
+  const state = Buffer.from(seen.state, 'base64');
+  await open(state.subarray(0, state.length - 100), 'short.snapshot', 'state is damaged');
+  assert.equal(await page.evaluate(() => globalThis.studio.studio.fallen.length), 0, 'what is refused changes nothing');
+  await open(state, 'fallen.snapshot', 'fallen.snapshot restored');
+  const restored = await page.evaluate(() => {
+    const { studio } = globalThis.studio, height = () => studio.fallen[0].object.position.y;
+    frames(2);
+    const heights = [height()];
+    frames(30);
+    heights.push(height());
+    const names = studio.fallen[0].drawn.children.map(({ material }) => material.map(({ name }) => name)), cut = String(studio.actor.instance.digest);
+    studio.undo();
+    frames(2);
+    return { heights, names, cut, left: studio.fallen.length };
+  });
+  assert.equal(restored.cut, seen.cut);
+  for (const height of restored.heights) assert.ok(Math.abs(height - seen.heights[2]) < 0.01 * seen.size, 'it lies where it lay');
+  assert.deepEqual(restored.names, seen.materials);
+  assert.equal(restored.left, 0);
 }));
 
 test('files: a log, a state, a GLB of its own, and files that are damaged', needsChromium, async () => withStudio(async (page) => {
@@ -254,6 +383,7 @@ test('memory stays as it is over tears that are undone', needsChromium, async ()
   await takeFrames(page);
   const sizes = await page.evaluate(() => {
     const { studio, tools } = globalThis.studio, sizes = [];
+    studio.actor.time = 0;  // so that frames before this one decide nothing
     for (let i = 0; i < 300; ++i) {
       const x = 0.44 + 0.04 * Math.sin(i), y = 0.3 + 0.1 * Math.cos(i);
       studio.begin(tools[1], eventAt(x, y, i));
@@ -267,11 +397,82 @@ test('memory stays as it is over tears that are undone', needsChromium, async ()
     }
     return sizes;
   });
-  assert.equal(sizes[2], sizes[0]);
+  assert.equal(sizes[2], sizes[0], sizes.join());
 }));
+
+test('a finger tears, a second one does not turn the view meanwhile, and one beside the character does', needsChromium, async () => withStudio(async (page) => {
+  const place = await page.evaluate(() => {
+    const { stage, studio } = globalThis.studio;
+    studio.speed = 0.1;
+    const box = document.getElementById('canvas').getBoundingClientRect();
+    const at = (x, y) => ({ clientX: box.left + x * box.width, clientY: box.top + y * box.height });
+    const along = Array.from({ length: 60 }, (_, i) => at(i / 60, 0.5)).filter((point) => studio.actor.hit(stage.ray(point)));
+    const beside = at(0.06, 0.06);
+    return { on: along[Math.floor(along.length / 2)], beside };
+  });
+  const camera = () => page.evaluate(() => globalThis.studio.stage.camera.position.toArray());
+  const nextFrame = () => page.evaluate(() => new Promise(requestAnimationFrame));
+  const { clientX: x, clientY: y } = place.on, start = await camera();
+  const finger = await page.touchscreen.touchStart(x, y - 20);
+  for (let i = 0; i < 5; ++i) {
+    await finger.move(x, y - 20 + 5 * i);
+    await nextFrame();
+  }
+  const second = await page.touchscreen.touchStart(place.beside.clientX, place.beside.clientY);
+  for (let i = 5; i < 9; ++i) {
+    await second.move(place.beside.clientX + 10 * i, place.beside.clientY);
+    await finger.move(x, y - 20 + 5 * i);
+    await nextFrame();
+  }
+  await second.end();
+  await finger.end();
+  await page.waitForSelector('body[data-operations="1"]');
+  const [operation] = JSON.parse(await page.evaluate(() => globalThis.studio.studio.actor.instance.log)).operations;
+  assert.equal(operation.op, 'tear');
+  assert.ok(operation.stroke.length > 2);
+  assert.deepEqual(await camera(), start, 'the view stays');
+  const turning = await page.touchscreen.touchStart(place.beside.clientX, place.beside.clientY);
+  for (let i = 1; i < 6; ++i) {
+    await turning.move(place.beside.clientX + 10 * i, place.beside.clientY);
+    await nextFrame();
+  }
+  await turning.end();
+  assert.notDeepEqual(await camera(), start);
+  assert.equal(await page.$$eval('#history li', (items) => items.length), 1);
+  await page.tap('#undo');
+  await page.waitForSelector('body[data-operations="0"]');
+}, { size: { width: 390, height: 844, hasTouch: true, isMobile: true } }));
+
+test('the server shows a model of the user to this machine, and nothing else', needsChromium, async () => {
+  const server = spawn(process.execPath, [join(packageFolder, 'studio', 'serve.mjs'), file, '--no-browser', rigFile('two_clips')]);
+  try {
+    const address = await new Promise((resolve, reject) => {
+      server.stdout.once('data', (line) => resolve(String(line).trim()));
+      server.once('exit', (code) => reject(new Error(`the server ended with ${code}`)));
+    });
+    const status = (path, headers = {}) => new Promise((resolve, reject) => {
+      request(address + path, { headers, agent: false }, (answer) => { answer.resume(); resolve(answer.statusCode); }).on('error', reject).end();
+    });
+    assert.equal(await status(''), 200);
+    assert.equal(await status('package.json'), 404);
+    assert.equal(await status('', { host: 'elsewhere.example' }), 403);
+    const { page, faults, close } = await openPage({ isOwn: (url) => url === address });
+    try {
+      await page.goto(address);
+      await page.waitForSelector('body[data-operations]');
+      assert.equal(await page.evaluate(() => globalThis.studio.studio.name), 'two_clips');
+      assert.equal(await page.$$eval('#character option', (options) => options.length), 4);
+      assert.deepEqual(faults, []);
+    } finally {
+      await close();
+    }
+  } finally {
+    server.kill();
+  }
+});
 
 test('a telephone shows all of it without scrolling sideways', needsChromium, async () => withStudio(async (page) => {
   assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
   const height = await page.$eval('#canvas', (canvas) => canvas.getBoundingClientRect().height);
   assert.ok(height > 300, `${height} pixels for the character`);
-}, { width: 390, height: 844, hasTouch: true, isMobile: true }));
+}, { size: { width: 390, height: 844, hasTouch: true, isMobile: true } }));

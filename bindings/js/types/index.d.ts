@@ -266,6 +266,9 @@ export const Sunder: {
   readonly materialNames: MaterialName[];
   material(name: MaterialName): TissueMaterial;
   tensionForGap(material: MaterialLike, length: number, gap: number): number;
+  /** Newtons on a blade, against its motion. lengthTorn: of the frame; depth: of the tip below the surface; metres. */
+  bladeForce(step: { lengthTorn: number; depth: number; motion: Vector3Like },
+    tissue?: { toughness?: number; thickness?: number; friction?: number; greatest?: number }): [number, number, number];
   readonly memoryBytes: number;
   readonly calls: Calls;
 };

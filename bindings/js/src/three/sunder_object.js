@@ -4,7 +4,7 @@ import { BoneNodes } from './bone_nodes.js';
 import { DrawnMesh } from './drawn_mesh.js';
 
 /** Materials of a loaded glTF by their index in the file. */
-function materialsOf(gltf) {
+export function materialsOf(gltf) {
   const materials = [];
   gltf?.scene?.traverse(({ material }) => {
     for (const one of [material].flat()) {

@@ -16,9 +16,11 @@ async function parsed(bytes) {
   }
 }
 
+/** `tissue` is the scene of the character alone, so that its snapshots are; `parts` that of what came off. */
 export class Actor {
   #layer = null;
   #material = 'skin';
+  isTearing = false;
 
   static async create(bytes, material) {
     const model = await Sunder.load(bytes, { soft: material });
@@ -26,6 +28,7 @@ export class Actor {
     actor.#material = material;
     actor.model = model;
     actor.tissue = await Sunder.createScene();
+    actor.parts = await Sunder.createScene();
     actor.instance = actor.tissue.spawn(model);
     actor.instance.prepareToTear();
     if (model.clips.length) actor.play(0);
@@ -38,7 +41,8 @@ export class Actor {
     return actor;
   }
 
-  get box() { return new THREE.Box3().setFromObject(this.object); }
+  /** In its own space. */
+  get box() { return this.object.children.reduce((box, { geometry }) => box.union(geometry.boundingBox), new THREE.Box3()); }
 
   play(clip) {
     this.instance.stop();
@@ -66,13 +70,24 @@ export class Actor {
     const { origin, direction } = this.object.localRay(ray), contact = this.instance.raycast(origin, direction);
     return contact && { ...contact, origin, direction, at: new THREE.Vector3(...contact.place) };
   }
-  /** A point of model space in the scene. */
-  toScene(point) { return point.clone().applyMatrix4(this.object.matrixWorld); }
+  /** A tear that goes on for some frames. There is one at a time. @param depth, width  as shares of the size */
+  beginTear(position, { depth, width }) {
+    const stroke = this.instance.beginStroke(position, { width: width * this.size, wallDepth: 0.75 * depth * this.size, weights: 'poseExact' });
+    this.isTearing = true;
+    return {
+      extend: (next, seconds) => stroke.extend(next, seconds),
+      end: () => {
+        this.isTearing = false;
+        return stroke.end();
+      },
+    };
+  }
 
   dispose() {
     this.object.removeFromParent();
     this.object.dispose();
     this.tissue.dispose();
+    this.parts.dispose();
     this.model.dispose();
   }
 }

@@ -1,11 +1,24 @@
 // A part that came off: a rigid body that falls on the floor.
 import * as THREE from 'three';
-import { SunderObject } from '../../src/three/index.js';
+import { SunderObject, materialsOf } from '../../src/three/sunder_object.js';
 
 const CORNERS = 48;      // vertices that meet the floor: the farthest in that many directions
 const BOUNCE = 0.2, FRICTION = 0.6;
 const STEP = 1 / 240;    // seconds
 const STILL = 0.02;      // metres per second, in sizes
+
+const submeshesOf = (model) => Array.from({ length: model.meshCount }, (_, mesh) => model.mesh(mesh).submeshes);
+const materialsIn = (model) => submeshesOf(model).map((submeshes) => submeshes.map(({ material }) => material));
+
+/** Materials of the actor's file, by the numbers that the piece's own file gave them. */
+function renumbered(gltf, model, materials) {
+  const all = materialsOf(gltf), found = [];
+  materialsIn(model).forEach((submeshes, mesh) => submeshes.forEach((material, i) => {
+    const original = all[materials[mesh]?.[i]];
+    if (original) found[material] = original;
+  }));
+  return found;
+}
 
 /** The farthest vertices of a model in directions that are spread evenly. */
 function extremes(model) {
@@ -23,6 +36,8 @@ function extremes(model) {
 export class FallingPiece {
   #velocity = new THREE.Vector3();
   #spin = new THREE.Vector3();
+  #body;
+  #materials;
   #corners;
   #left = 0;
   #gravity;
@@ -30,18 +45,21 @@ export class FallingPiece {
   #mass;
 
   /**
-   * @param piece  of a detach; its frame is at its centre of mass
-   * @param of  the model that it came off
-   * @param gltf  whose materials are used, or null
+   * @param model  of the piece, whose frame is at its centre of mass; it becomes this object's own
+   * @param actor  that it came off
    * @param operations  how many operations are done with that detach: fewer, and the piece is gone
+   * @param body  { mass, inertiaPiece, modelFromPiece }, and where it is and how it moves if it has fallen already
+   * @param materials  of its submeshes, by mesh, as the actor's file numbers them
    */
-  constructor(piece, { tissue, of, gltf, operations, size }) {
-    const { mass, inertiaPiece, modelFromPiece: m } = piece.info;
+  constructor(model, { actor: { parts, model: of, gltf, size }, operations, body, materials = materialsIn(model) }) {
+    const { mass, inertiaPiece, modelFromPiece: m } = body;
     this.operations = operations;
-    this.model = piece.toModel({ soft: false });
-    this.instance = tissue.spawn(this.model);
-    const names = new Set(Array.from({ length: of.meshCount }, (_, mesh) => of.mesh(mesh).submeshes.map(({ name }) => name)).flat());
-    this.drawn = new SunderObject(this.instance, { gltf, isFlesh: ({ name }) => !names.has(name) });
+    this.model = model;
+    this.#body = { mass, inertiaPiece, modelFromPiece: m };
+    this.#materials = materials;
+    this.instance = parts.spawn(model);
+    const names = new Set(submeshesOf(of).flat().map(({ name }) => name));
+    this.drawn = new SunderObject(this.instance, { materials: renumbered(gltf, model, materials), isFlesh: ({ name }) => !names.has(name) });
     for (const mesh of this.drawn.children) mesh.castShadow = true;
     // The library poses the piece where it came off; the body moves it from there.
     const modelFromPiece = new THREE.Matrix4().set(m[0], m[3], m[6], m[9], m[1], m[4], m[7], m[10], m[2], m[5], m[8], m[11], 0, 0, 0, 1);
@@ -55,7 +73,20 @@ export class FallingPiece {
     this.#inertia = new THREE.Vector3(inertiaPiece[0], inertiaPiece[4], inertiaPiece[8]).max(new THREE.Vector3(least, least, least));
     this.#gravity = 9.81 * Math.max(size / 2.5, 0.1);  // as if the character were as large as a person
     this.size = size;
-    piece.dispose();
+    const { position, quaternion, velocity, spin } = body;
+    if (position) this.object.position.fromArray(position);
+    if (quaternion) this.object.quaternion.fromArray(quaternion).normalize();
+    if (velocity) this.#velocity.fromArray(velocity);
+    if (spin) this.#spin.fromArray(spin);
+  }
+
+  /** What another page needs to make it again. */
+  get state() {
+    const { position, quaternion } = this.object;
+    return {
+      glb: this.model.toGLB(), operations: this.operations, materials: this.#materials,
+      body: { ...this.#body, position: position.toArray(), quaternion: quaternion.toArray(), velocity: this.#velocity.toArray(), spin: this.#spin.toArray() },
+    };
   }
 
   step(seconds, floor) {

@@ -1,6 +1,7 @@
 // Joins the page: controls, keys, pointers, frames.
 import { Sunder } from 'sunder-tear';
 import { kindOf, receiveFiles, save } from './files.js';
+import { Headset } from './headset.js';
 import { HistoryList } from './history_list.js';
 import { Readout } from './readout.js';
 import { Stage } from './stage.js';
@@ -15,6 +16,7 @@ const settings = { width: 0, depth: 0, radius: 0, tension: 0, tissue: 'skin', gi
 const stage = new Stage(element('canvas'));
 const studio = new Studio(stage, settings, say);
 const readout = new Readout(element('readout'));
+const headset = new Headset(stage, studio);
 const history = new HistoryList(element('history'), (count) => studio.goBackTo(count));
 let tool = tools[1];
 
@@ -48,7 +50,7 @@ async function receive({ name, bytes }) {
     const kind = kindOf(bytes);
     if (kind === 'log') say(`${studio.replay(bytes)} operations of ${name} done`, false);
     else if (kind === 'state') {
-      studio.actor.tissue.restore(bytes, [studio.actor.model]);
+      await studio.restoreState(bytes);
       say(`${name} restored`, false);
     } else {
       await open(bytes, name.replace(/\.[^.]*$/, ''));
@@ -106,10 +108,12 @@ element('gives-way').addEventListener('change', ({ target }) => { settings.gives
 const canvas = element('canvas');
 let pointer = null;
 canvas.addEventListener('pointerdown', (event) => {
-  if (event.button !== 0 || pointer !== null || !studio.begin(tool, event)) return;
-  pointer = event.pointerId;
-  canvas.setPointerCapture(pointer);
-  event.stopImmediatePropagation();  // the camera stays
+  if (pointer === null) {
+    if (event.button !== 0 || !studio.begin(tool, event)) return;
+    pointer = event.pointerId;
+    canvas.setPointerCapture(pointer);
+  }
+  event.stopImmediatePropagation();  // the camera stays, also when a second finger comes
 }, { capture: true });
 canvas.addEventListener('pointermove', (event) => { if (event.pointerId === pointer) studio.move(event); });
 for (const type of ['pointerup', 'pointercancel'])
@@ -127,7 +131,7 @@ const saveLog = () => attempt(() => save(studio.actor.instance.log, `${studio.na
 const saveGLB = () => attempt(() => save(studio.actor.instance.toGLB(), `${studio.name}_torn.glb`, 'model/gltf-binary'));
 element('save-log').addEventListener('click', saveLog);
 element('save-glb').addEventListener('click', saveGLB);
-element('save-snapshot').addEventListener('click', () => attempt(() => save(studio.actor.tissue.save(), `${studio.name}.snapshot`)));
+element('save-snapshot').addEventListener('click', () => attempt(() => save(studio.saveState(), `${studio.name}.snapshot`)));
 const fit = () => stage.show(studio.actor.box);
 element('fit').addEventListener('click', fit);
 element('help').addEventListener('click', () => element('helping').showModal());
@@ -141,11 +145,20 @@ addEventListener('keydown', (event) => {
   act();
 });
 
+// ---- the headset ----
+
+element('enter-vr').hidden = !await Headset.isThere();
+element('enter-vr').addEventListener('click', () => attempt(async () => {
+  if (headset.session) return headset.session.end();
+  await headset.enter(() => { element('enter-vr').textContent = 'Enter VR'; });
+  element('enter-vr').textContent = 'Leave VR';
+}));
+
 // ---- frames ----
 
 let last = performance.now(), digest = null;
 function frame(now) {
-  const figures = studio.frame((now - last) / 1000);
+  const figures = studio.frame((now - last) / 1000, now / 1000);
   last = now;
   if (figures) {
     readout.add({ ...figures, memory: Sunder.memoryBytes });
@@ -160,6 +173,7 @@ function frame(now) {
     if (studio.actor.duration > 0) element('seek').value = (studio.actor.time % studio.actor.duration) / studio.actor.duration;
     document.body.dataset.operations = undo;
   }
+  headset.show([...readout.lines, [element('said').textContent, '']]);
   stage.draw();
 }
 

@@ -33,6 +33,9 @@ export class Readout {
     }
   }
 
+  /** Pairs of a name and its text. */
+  get lines() { return Object.entries(ROWS).map(([name, [label]]) => [label, this.#cells[name].textContent]); }
+
   add(figures) {
     for (const name of Object.keys(ROWS)) this.#sums[name] = (this.#sums[name] ?? 0) + (figures[name] ?? 0);
     if (++this.#frames < SHOWN_EVERY) return;

@@ -2,9 +2,14 @@
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 
+/** Of a character before somebody who stands. */
+const IN_ROOM = { size: 1, place: new THREE.Vector3(0, 1.2, -0.6) };
+
 export class Stage {
   #canvas;
   #raycaster = new THREE.Raycaster();
+  #box = new THREE.Box3();
+  #things = [];
   #lamp = new THREE.DirectionalLight(0xfff4e6, 2.2);
   #floor = new THREE.Mesh(new THREE.PlaneGeometry(1, 1), new THREE.ShadowMaterial({ opacity: 0.28 }));
 
@@ -18,11 +23,15 @@ export class Stage {
     this.#lamp.shadow.mapSize.set(1024, 1024);
     this.#floor.rotation.x = -Math.PI / 2;
     this.#floor.receiveShadow = true;
-    this.scene = new THREE.Scene().add(new THREE.HemisphereLight(0xffffff, 0x665548, 2), this.#lamp, this.#lamp.target, this.#floor);
+    /** Characters, their parts, light and floor: what becomes small or large in a headset's room. */
+    this.world = new THREE.Group().add(this.#lamp, this.#lamp.target, this.#floor);
+    this.scene = new THREE.Scene().add(new THREE.HemisphereLight(0xffffff, 0x665548, 2), this.world);
+    this.renderer.xr.enabled = true;
   }
 
-  /** Looks at a box, and puts the floor below it. */
+  /** Looks at a box of the world, and puts the floor below it. */
   show(box) {
+    this.#box = box;
     const centre = box.getCenter(new THREE.Vector3()), size = box.getSize(new THREE.Vector3()).length() || 1;
     this.camera.near = size / 200;
     this.camera.far = size * 20;
@@ -32,10 +41,42 @@ export class Stage {
     this.#floor.scale.setScalar(12 * size);
     this.#lamp.position.copy(centre).add(new THREE.Vector3(-0.8, 1.6, 1.2).multiplyScalar(size));
     this.#lamp.target.position.copy(centre);
-    Object.assign(this.#lamp.shadow.camera, { left: -size, right: size, top: size, bottom: -size, near: size / 10, far: 5 * size });
-    this.#lamp.shadow.camera.updateProjectionMatrix();
     this.#lamp.shadow.bias = -0.002;
     this.controls.update();
+    if (this.#things.length) this.#standInRoom();
+    else this.#lightUp(size);
+  }
+  /** @param reach  of what casts shadows, in metres of the scene */
+  #lightUp(reach) {
+    Object.assign(this.#lamp.shadow.camera, { left: -reach, right: reach, top: reach, bottom: -reach, near: reach / 10, far: 5 * reach });
+    this.#lamp.shadow.camera.updateProjectionMatrix();
+  }
+
+  // ---- the room of a headset, whose scene is in metres from its floor ----
+
+  /** @param things  that are in the room beside the world */
+  enterRoom(things) {
+    this.#things = things;
+    this.scene.add(...things);
+    this.scene.background = new THREE.Color(0x23262d);
+    this.#standInRoom();
+  }
+  leaveRoom() {
+    this.scene.remove(...this.#things);
+    this.#things = [];
+    this.scene.background = null;
+    this.world.position.setScalar(0);
+    this.world.scale.setScalar(1);
+    this.show(this.#box);
+  }
+  /** The character before the user, as large as arms reach. */
+  #standInRoom() {
+    const size = this.#box.getSize(new THREE.Vector3()).length() || 1, scale = IN_ROOM.size / size;
+    this.world.scale.setScalar(scale);
+    this.world.position.copy(IN_ROOM.place).addScaledVector(this.#box.getCenter(new THREE.Vector3()), -scale);
+    this.camera.near = 0.02;
+    this.camera.far = 50;
+    this.#lightUp(IN_ROOM.size);
   }
 
   get floorHeight() { return this.#floor.position.y; }
@@ -50,7 +91,7 @@ export class Stage {
   draw() {
     const { clientWidth: width, clientHeight: height } = this.#canvas.parentElement;
     const ratio = Math.min(devicePixelRatio, 2), size = this.renderer.getSize(new THREE.Vector2());
-    if (size.x !== width || size.y !== height || this.renderer.getPixelRatio() !== ratio) {
+    if (!this.renderer.xr.isPresenting && (size.x !== width || size.y !== height || this.renderer.getPixelRatio() !== ratio)) {
       this.renderer.setPixelRatio(ratio);
       this.renderer.setSize(width, height, false);
       this.camera.aspect = width / Math.max(height, 1);

@@ -1,6 +1,8 @@
 // The character, what is done to it, and one frame after the other.
 import { Actor } from './actor.js';
+import { Sunder } from 'sunder-tear';
 import { FallingPiece } from './falling_piece.js';
+import { packState, unpackState } from './state_file.js';
 
 export class Studio {
   #stage;
@@ -11,6 +13,8 @@ export class Studio {
   actor = null;
   name = '';
   isPlaying = true;
+  /** What else acts on the character in each frame: { act, feel, dispose }. */
+  hands = [];
   get fallen() { return this.#pieces; }
   speed = 1;
 
@@ -30,14 +34,13 @@ export class Studio {
     this.close();
     this.actor = actor;
     this.name = name;
-    this.#stage.scene.add(actor.object);
+    this.#stage.world.add(actor.object);
     this.#stage.show(actor.box);
     this.applySettings();
   }
   close() {
     this.#use = null;
-    for (const piece of this.#pieces) piece.dispose();
-    this.#pieces = [];
+    this.#dropPieces(() => true);
     this.actor?.dispose();
     this.actor = null;
   }
@@ -52,13 +55,13 @@ export class Studio {
   begin(tool, event) {
     const { actor } = this, ray = this.#stage.ray(event), hit = actor?.hit(ray);
     if (!actor || !tool.begin || (tool.needsHit && !hit)) return false;
-    this.#attempt(() => { this.#use = tool.begin({ actor, ray, hit, settings: this.#settings, time: event.timeStamp / 1000 }); });
+    this.#useTool(() => { this.#use = tool.begin({ actor, ray, hit, settings: this.#settings, time: event.timeStamp / 1000 }); });
     return true;
   }
   move(event) {
     if (!this.#use) return;
     const ray = this.#stage.ray(event);
-    this.#attempt(() => this.#use.move({ ray, hit: this.actor.hit(ray), time: event.timeStamp / 1000 }));
+    this.#useTool(() => this.#use.move({ ray, hit: this.actor.hit(ray), time: event.timeStamp / 1000 }));
   }
   end() {
     const use = this.#use;
@@ -74,24 +77,48 @@ export class Studio {
   /** Does the operations of a log, after those that are done. @returns how many */
   replay(log) { return this.actor.instance.applyLog(log); }
 
+  /** The character, and where its fallen parts are. */
+  saveState() { return packState({ snapshot: this.actor.tissue.save(), pieces: this.#pieces.map(({ state }) => state) }); }
+  /** Goes back to what was saved of the same character. Nothing changes if it is refused. */
+  async restoreState(bytes) {
+    const { actor } = this, { snapshot, pieces } = unpackState(bytes), models = [];
+    try {
+      for (const { glb } of pieces) models.push(await Sunder.load(glb, { soft: false }));
+      if (actor !== this.actor) throw new Error('another character was opened meanwhile');
+      actor.tissue.restore(snapshot, [actor.model]);
+    } catch (error) {
+      for (const model of models) model.dispose();
+      throw error;
+    }
+    this.#use = null;
+    this.#dropPieces(() => true);
+    pieces.forEach((piece, i) => this.#add(new FallingPiece(models[i], { ...piece, actor })));
+    actor.parts.update(0);
+  }
+
+  /** @returns whether it worked */
   #attempt(action) {
     try {
       action();
+      return true;
     } catch (error) {
-      this.#use = null;
       this.#onMessage(error.message, true);
+      return false;
     }
   }
+  #useTool(action) { if (!this.#attempt(action)) this.#use = null; }
 
   // ---- frames ----
 
-  /** @returns the figures of the frame */
-  frame(seconds) {
+  /** @param now  seconds, which the hands' tears get @returns the figures of the frame */
+  frame(seconds, now = performance.now() / 1000) {
     const { actor } = this;
     if (!actor) return null;
-    const began = performance.now(), dt = Math.min(seconds, 0.05) * this.speed;
+    const began = performance.now(), dt = Math.max(0, Math.min(seconds, 0.05)) * this.speed;
+    for (const hand of this.hands) this.#attempt(() => hand.act({ actor, settings: this.#settings, seconds: now }));
     this.#handle(actor.tissue.update(dt));
-    if (this.#use?.frame) this.#attempt(() => this.#use.frame());
+    if (this.#use?.frame) this.#useTool(() => this.#use.frame());
+    for (const hand of this.hands) this.#attempt(() => hand.feel({ actor, settings: this.#settings }));
     const { stats } = actor.tissue, updated = performance.now();
     actor.object.update();
     let bytes = actor.object.uploadedBytes;
@@ -115,20 +142,26 @@ export class Studio {
         this.#onMessage(`${result.facesCrossed} faces torn${parts}`, false);
       }
     }
-    if (this.#pieces.length > before) this.#handle(this.actor.tissue.update(0));  // poses the new pieces for this frame
+    if (this.#pieces.length > before) this.actor.parts.update(0);  // poses them for this frame
   }
 
   #letFall(piece) {
-    const { tissue, instance, gltf, size, model } = this.actor;
-    const fallen = new FallingPiece(piece, { tissue, of: model, gltf, operations: instance.undoCounts.undo, size });
-    this.#pieces.push(fallen);
-    this.#stage.scene.add(fallen.object);
+    const { actor } = this, { mass, inertiaPiece, modelFromPiece } = piece.info;
+    this.#add(new FallingPiece(piece.toModel({ soft: false }), { actor, operations: actor.instance.undoCounts.undo, body: { mass, inertiaPiece, modelFromPiece } }));
+    piece.dispose();
     this.#onMessage('A part falls', false);
+  }
+  #add(fallen) {
+    this.#pieces.push(fallen);
+    this.#stage.world.add(fallen.object);
   }
   /** A piece whose detach is undone is a part of the character again. */
   #dropUndone() {
     const done = this.actor.instance.undoCounts.undo;
-    for (const piece of this.#pieces.filter(({ operations }) => operations > done)) piece.dispose();
-    this.#pieces = this.#pieces.filter(({ operations }) => operations <= done);
+    this.#dropPieces(({ operations }) => operations > done);
+  }
+  #dropPieces(isGone) {
+    for (const piece of this.#pieces.filter(isGone)) piece.dispose();
+    this.#pieces = this.#pieces.filter((piece) => !isGone(piece));
   }
 }

@@ -11,8 +11,7 @@ const stopped = { move() {}, end() {} };
 const blade = {
   name: 'Blade', hint: 'Drag over the surface: it tears below the pointer while it moves.', needsHit: true,
   begin({ actor, hit, settings, time }) {
-    const depth = settings.depth * actor.size, width = settings.width * actor.size;
-    const stroke = actor.instance.beginStroke(bladeAt(hit, depth), { width, wallDepth: 0.75 * depth, weights: 'poseExact' });
+    const depth = settings.depth * actor.size, stroke = actor.beginTear(bladeAt(hit, depth), settings);
     let last = time;
     return {
       move({ hit: next, time: now }) {
