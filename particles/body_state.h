@@ -2,6 +2,9 @@
 
 #include <sunder/particles/soft_body.h>
 
+#include <memory>
+#include <utility>
+
 #include "particles/contact/contact.h"
 #include "particles/motion/coupling.h"
 #include "particles/motion/hold_list.h"
@@ -99,9 +102,12 @@ struct BodyState {
   [[nodiscard]] bool has_stretch_limit() const;
 };
 
-/// Gives functions of the module the data behind a body.
+/// Gives functions of the module the data behind a body, and bodies of such data.
 struct BodyStateOf {
   [[nodiscard]] static const BodyState& in(const SoftBody& body) { return *body.state_; }
+  [[nodiscard]] static SoftBody body_of(std::unique_ptr<BodyState> state) {
+    return SoftBody(std::move(state));
+  }
 };
 
 }  // namespace sunder::particles

@@ -8,6 +8,7 @@
 #include "particles/body_state.h"
 #include "particles/clusters/influences.h"
 #include "particles/clusters/structure_of.h"
+#include "particles/internal/body_copy.h"
 #include "particles/internal/recorded_limits.h"
 #include "particles/internal/tolerances.h"
 
@@ -119,6 +120,13 @@ Result<SoftBody> SoftBody::create(ParticleSet& particles, const ModelPose& pose,
   } catch (const std::bad_alloc&) {
     return out_of_memory();
   }
+}
+
+SoftBody particles::copy_body(const SoftBody& other, ParticleSet& set) {
+  auto copy = std::make_unique<BodyState>(BodyStateOf::in(other));
+  SUNDER_ASSERT(&StructureOf::in(set) == &StructureOf::in(*copy->set));
+  copy->set = &set;
+  return BodyStateOf::body_of(std::move(copy));
 }
 
 // ---- Materials.

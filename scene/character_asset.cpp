@@ -7,7 +7,6 @@
 
 #include "core/internal/out_of_memory.h"
 #include "scene/asset_data.h"
-#include "scene/torn_parts.h"
 
 namespace sunder {
 namespace {
@@ -45,7 +44,7 @@ Status check_coarser(const Character& character, const Character& coarser) {
   return {};
 }
 
-/// Divides the surface into particles, and checks that bodies can be made of them.
+/// Divides the surface into particles, and makes the tissue that instances copy.
 Status divide(const SoftTissue& soft, scene::AssetData& data) {
   Result<TornModel> model = TornModel::create(data.torn);
   if (!model) return model.error();
@@ -55,7 +54,10 @@ Status divide(const SoftTissue& soft, scene::AssetData& data) {
   auto particles = ParticleAsset::create(*model, *rest, soft.decomposition);
   if (!particles) return particles.error();
   data.particles = std::move(*particles);
-  return scene::TornParts(std::move(*model)).make_soft(soft, data.particles);
+  Result<scene::TissueAtRest> tissue = scene::make_tissue(soft, *model, data.particles);
+  if (!tissue) return tissue.error();
+  data.tissue = std::move(*tissue);
+  return {};
 }
 
 }  // namespace
@@ -113,7 +115,9 @@ std::span<const DrawRange> CharacterAsset::draw_ranges(std::uint32_t mesh) const
 std::size_t CharacterAsset::memory_bytes() const {
   const TornMemory torn = data_->torn->memory_bytes();
   std::size_t bytes = sizeof(*this) + sizeof(*data_) + torn.shared + torn.reserved;
-  if (data_->particles) bytes += data_->particles->memory_bytes();
+  if (data_->particles)
+    bytes += data_->particles->memory_bytes() + data_->tissue->particles->memory_bytes() +
+             data_->tissue->body.memory_bytes();
   for (const scene::AssetMesh& mesh : data_->meshes)
     bytes += sizeof(mesh) + mesh.skinned.stream_bytes() + mesh.order.memory_bytes();
   return bytes;

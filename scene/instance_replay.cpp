@@ -6,7 +6,7 @@ namespace sunder::scene {
 
 Status InstanceReplay::begin() {
   state_.needs_draw = true;
-  if (Status status = state_.make_torn({}); !status) return status;
+  if (Status status = state_.make_torn(false); !status) return status;
   return state_.prepare_model();
 }
 

@@ -19,17 +19,18 @@ CharacterInstance::State::State(std::shared_ptr<const CharacterAsset> of, const 
 
 Status CharacterInstance::State::require_torn() {
   if (is_broken) return broken_for_lack_of_memory();
-  return torn ? Status() : make_torn(shared().options.soft);
+  return torn ? Status() : make_torn(shared().tissue.has_value());
 }
 
-Status CharacterInstance::State::make_torn(const std::optional<SoftTissue>& soft) {
+Status CharacterInstance::State::make_torn(bool is_soft) {
   try {
     Result<TornModel> model = TornModel::create(shared().torn, capacity);
     if (!model) return model.error();
     if (Status status = model->set_weights(shared().options.weights); !status) return status;
     auto parts = std::make_unique<scene::TornParts>(std::move(*model));
-    if (soft)
-      if (Status status = parts->make_soft(*soft, shared().particles); !status) return status;
+    if (is_soft)
+      if (Status status = parts->make_soft(*shared().tissue, shared().particles); !status)
+        return status;
     torn = std::move(parts);
     return {};
   } catch (const std::bad_alloc&) {

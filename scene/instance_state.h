@@ -50,8 +50,8 @@ struct CharacterInstance::State {
 
   /// Makes what the first operation needs, if it is not there.
   Status require_torn();
-  /// Makes it. @param soft  empty: without a soft body.
-  Status make_torn(const std::optional<SoftTissue>& soft);
+  /// Makes it. @param is_soft  with a soft body, which the asset has.
+  Status make_torn(bool is_soft);
   /// The same, and the model has all memory for it.
   Status prepare_model();
   /// The same for the particles.

@@ -2,16 +2,19 @@
 
 #include <sunder/skinning/pose.h>
 
+#include <utility>
+
+#include "particles/internal/body_copy.h"
+
 namespace sunder::scene {
 
-Status TornParts::make_soft(const SoftTissue& soft,
+Status TornParts::make_soft(const TissueAtRest& tissue,
                             const std::shared_ptr<const ParticleAsset>& asset) {
   Result<ParticleSet> made = ParticleSet::create(asset, model);
   if (!made) return made.error();
   auto set = std::make_unique<ParticleSet>(std::move(*made));
-  Result<SoftBody> of_set = make_body(soft, model.source(), *set);
-  if (!of_set) return of_set.error();
-  take(std::move(set), std::move(*of_set));
+  SoftBody of_set = sunder::particles::copy_body(tissue.body, *set);
+  take(std::move(set), std::move(of_set));
   return {};
 }
 
@@ -19,6 +22,16 @@ void TornParts::take(std::unique_ptr<ParticleSet> set, SoftBody made) {
   body.reset();
   particles = std::move(set);
   body.emplace(std::move(made));
+}
+
+Result<TissueAtRest> make_tissue(const SoftTissue& soft, const TornModel& untorn,
+                                 std::shared_ptr<const ParticleAsset> asset) {
+  Result<ParticleSet> made = ParticleSet::create(std::move(asset), untorn);
+  if (!made) return made.error();
+  auto set = std::make_unique<ParticleSet>(std::move(*made));
+  Result<SoftBody> body = make_body(soft, untorn.source(), *set);
+  if (!body) return body.error();
+  return TissueAtRest{std::move(set), std::move(*body)};
 }
 
 Result<SoftBody> make_body(const SoftTissue& soft, const Character& source, ParticleSet& set) {

@@ -28,6 +28,16 @@ class Bits {
     word = value ? before | bit : before & ~bit;
     return word != before;
   }
+  /// Sets each bit to value(i), a word at a time.
+  template <class Value>
+  void set_all(Value value) {
+    for (std::size_t w = 0; w < words_.size(); ++w) {
+      const Index first = static_cast<Index>(64 * w), count = std::min<Index>(64, count_ - first);
+      std::uint64_t word = 0;
+      for (Index i = 0; i < count; ++i) word |= std::uint64_t{value(first + i) ? 1u : 0u} << i;
+      words_[w] = word;
+    }
+  }
   /// Sets all bits to 0, and calls visit(i) for each one of an element in [first, last], ascending;
   /// the others are 0. O(last - first).
   template <class Visit>

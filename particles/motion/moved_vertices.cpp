@@ -71,13 +71,12 @@ void MovedVertices::renew_point(const Structure& structure, const TornModel& mod
 }
 
 void MovedVertices::renew_all(const Structure& structure, const TornModel& model) {
-  for (Index point = 0; point < points_.size(); ++point)
-    points_.set(point, is_point_displaced(structure.points.influences[point]));
+  const std::vector<ParticleInfluences>& influences = structure.points.influences;
+  points_.set_all([&](Index point) { return is_point_displaced(influences[point]); });
   for (Index m = 0; m < meshes_.size(); ++m) {
     const std::vector<Index>& points = structure.vertex_points.of_mesh[m];
     meshes_[m].is_listed = false;
-    for (Index v = 0; v < points.size(); ++v)
-      meshes_[m].is_moved.set(v, points[v] != kNone && points_[points[v]]);
+    meshes_[m].is_moved.set_all([&](Index v) { return points[v] != kNone && points_[points[v]]; });
   }
   for (const auto& [vertex, points] : structure.vertex_points.shared)
     if (vertex.second < meshes_[vertex.first].is_moved.size())
@@ -98,9 +97,14 @@ std::span<const IndexRange> MovedVertices::of(const Structure& structure, const 
                                               std::span<const std::uint8_t> is_displaced) {
   const ChangeJournal& journal = structure.journal;
   if (key_ != key) {
-    bool is_known = key_ != 0 && journal.points.has_since(points_read_) &&
-                    journal.vertices.has_since(vertices_read_);
+    if (is_untouched_) {  // nothing was displaced, so only members of displaced particles can be
+      points_read_ = journal.points.end();
+      vertices_read_ = journal.vertices.end();
+    }
+    bool is_known = is_untouched_ || (key_ != 0 && journal.points.has_since(points_read_) &&
+                                      journal.vertices.has_since(vertices_read_));
     key_ = 0;  // invalid until the update is complete
+    is_untouched_ = false;
     const std::size_t members = list_changed_particles(structure, is_displaced);
     resize(structure);
     if (is_known)

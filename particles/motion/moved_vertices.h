@@ -43,7 +43,8 @@ class MovedVertices {
   std::vector<Index> changed_;              ///< Particles.
   Bits points_;                             ///< Whether a displaced particle moves a point.
   std::vector<OfMesh> meshes_;
-  std::uint64_t key_ = 0;                              ///< 0: nothing is known.
+  std::uint64_t key_ = 0;     ///< 0: nothing is known.
+  bool is_untouched_ = true;  ///< Whether no update began yet, so that all bits are rightly 0.
   std::uint64_t points_read_ = 0, vertices_read_ = 0;  ///< Places in the journals.
 };
 

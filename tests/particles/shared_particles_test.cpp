@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "particles/internal/body_copy.h"
 #include "particles/soft_scene.h"
 #include "support/models/random_operations.h"
 #include "support/oracles/particle_laws.h"
@@ -35,7 +36,11 @@ struct Instance {
     const SoftMaterial materials[2] = {*find_material("skin"), *find_material("fat")};
     auto soft = SoftBody::create(*set, pose, materials);
     EXPECT_TRUE(soft) << soft.error().text();
+    EXPECT_TRUE(soft->set_tension({1.2, {}}));
     body = std::make_unique<SoftBody>(std::move(*soft));
+  }
+  void copy_body(const Instance& other) {
+    body = std::make_unique<SoftBody>(particles::copy_body(*other.body, *set));
   }
 };
 
@@ -109,13 +114,17 @@ TEST(shared_particles, have_the_bits_of_particles_of_their_own) {
     const Shared shared(test::random_character(of_character));
     Instance own(shared.character, nullptr, shared.pose),
         first(shared.character, shared.asset, shared.pose),
-        untouched(shared.character, shared.asset, shared.pose);
+        untouched(shared.character, shared.asset, shared.pose),
+        copied(shared.character, shared.asset, shared.pose);
+    copied.copy_body(untouched);
     const auto before = state_of(*untouched.model, *untouched.set, shared.pose);
-    Random one(seed), other(seed);
+    Random one(seed), other(seed), third(seed);
     for (int i = 0; i < 25; ++i) {
       (void)act(own, one, shared.pose);
       (void)act(first, other, shared.pose);
+      (void)act(copied, third, shared.pose);
       ASSERT_NO_FATAL_FAILURE(expect_same(own, first, shared.pose));
+      ASSERT_NO_FATAL_FAILURE(expect_same(own, copied, shared.pose));
     }
     ASSERT_EQ(difference(before, state_of(*untouched.model, *untouched.set, shared.pose)), "");
   }
