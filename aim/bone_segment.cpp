@@ -91,9 +91,11 @@ double weight_below(const BoneTree& tree, Index bone) {
 }
 
 /// The child that continues the direction of the chain best; kNone if none continues it.
+/// @param own  bones that are one with it: it leads to none of them.
 Index next_bone(const Joints& joints, const BoneTree& tree, Index bone,
-                const Vec3d& own_direction) {
-  const std::vector<Index> children = joints.next_joints(bone);
+                const std::vector<Index>& own, const Vec3d& own_direction) {
+  std::vector<Index> children = joints.next_joints(bone);
+  std::erase_if(children, [&](Index child) { return std::ranges::count(own, child) > 0; });
   if (children.empty()) return kNone;
   Vec3d ahead = joints.arrival(bone);
   if (ahead == Vec3d::Zero()) ahead = own_direction;
@@ -135,7 +137,8 @@ double BoneSegment::length() const { return norm(end - start); }
 Result<BoneSegment> bone_segment(const PosedSurface& surface, const BoneTree& tree, Index bone) {
   const Character& character = surface.character();
   const char* const name = character.skeleton.bones[bone].name.c_str();
-  const Moved moved = points_of(surface, tree.same_bones(character.skeleton, bone));
+  const std::vector<Index> same = tree.same_bones(character.skeleton, bone);
+  const Moved moved = points_of(surface, same);
   if (moved.points.empty())
     return Status::failure(StatusCode::not_found, bone,
                            "the bone '%.60s' moves no vertex of the model", name);
@@ -148,7 +151,7 @@ Result<BoneSegment> bone_segment(const PosedSurface& surface, const BoneTree& tr
   own = norm(own) < kAroundJointExtents * moved.extent ? Vec3d(Vec3d::Zero()) : normalized(own);
   BoneSegment segment;
   segment.start = start;
-  segment.next = next_bone(at_bind, tree, bone, own);
+  segment.next = next_bone(at_bind, tree, bone, same, own);
   segment.end = segment.next != kNone ? surface.joint(segment.next)
                                       : end_of_moved(surface, moved, start, in_pose.arrival(bone));
   if (!(segment.length() > kSameJointSizes * surface.size()))

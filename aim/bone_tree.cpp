@@ -287,6 +287,15 @@ Index BoneTree::moving_parent(Index bone) const {
   return above;
 }
 
+bool BoneTree::is_made_of_parts(const Skeleton& skeleton, Index bone) const {
+  if (moves(bone)) return false;
+  for (Index i = 0; i < skeleton.bones.size(); ++i)
+    if (skeleton.bones[i].parent == bone && is_rigid_part_[i] &&
+        skeleton.bones[i].rest != BoneTransform{})
+      return true;
+  return false;
+}
+
 std::vector<Index> BoneTree::same_bones(const Skeleton& skeleton, Index bone) const {
   std::vector<Index> same = {bone};
   for (Index i = 0; i < skeleton.bones.size(); ++i) {

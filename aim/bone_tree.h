@@ -42,6 +42,8 @@ class BoneTree {
   /// splits by material. For a bone that moves nothing, also its children in the same place, and
   /// those that are parts of it: rigid, without bones below them, and moved by no clip.
   [[nodiscard]] std::vector<Index> same_bones(const Skeleton& skeleton, Index bone) const;
+  /// Whether a bone moves nothing itself, but by rigid parts elsewhere, see same_bones().
+  [[nodiscard]] bool is_made_of_parts(const Skeleton& skeleton, Index bone) const;
 
  private:
   std::vector<Index> parents_;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "aim/bone_tree.h"
 #include "aim/facing.h"
 #include "aim/limb.h"
 #include "aim/operations.h"
@@ -82,10 +83,22 @@ Status miss(const aim::PosedSurface& surface, const AimedOperation& operation, b
   return plain ? Status() : plain.error();
 }
 
+/// Whether a sever is of a limb that rigid parts make. It is at its own share or nowhere: farther
+/// on, a cut leaves most of a block, or the blocks beside it.
+bool keeps_its_share(const aim::PosedSurface& surface, const AimedOperation& operation) {
+  const auto* const sever = std::get_if<SeverOperation>(&operation);
+  if (sever == nullptr) return false;
+  const Skeleton& skeleton = surface.character().skeleton;
+  const Result<std::uint32_t> bone = find_bone(skeleton, sever->place.bone);
+  return bone && aim::BoneTree(surface).is_made_of_parts(skeleton, *bone);
+}
+
 /// The share at which an operation hits, its own or the nearest one.
 std::optional<double> share_that_hits(const aim::PosedSurface& surface, AimedOperation operation) {
   LimbPlace& place = *place_of(operation);
   const double wanted = place.at;
+  if (keeps_its_share(surface, operation))
+    return miss(surface, operation, false).is_ok() ? std::optional(wanted) : std::nullopt;
   for (const bool counts_props : {false, true}) {
     const auto hits_at = [&](double at) {
       place.at = at;

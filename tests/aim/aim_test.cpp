@@ -160,6 +160,10 @@ TEST(Sever, a_bone_that_moves_nothing_is_the_rigid_parts_below_it) {
   const TearReport report = apply_aimed(model, sever_at("head", 0.2));
   EXPECT_EQ(torn_meshes(model), (std::set<std::uint32_t>{1}));
   EXPECT_EQ(report.runs, 1u);
+  EXPECT_TRUE(at_nearest_share(make_model(make_block_figure()), sever_at("head", 0.1)));
+  const auto before_it = at_nearest_share(make_model(make_block_figure()), sever_at("head", 0.0));
+  ASSERT_FALSE(before_it) << "blocks are cut at the share that is asked for, or not";
+  EXPECT_THAT(std::string(before_it.error().text()), HasSubstr("no share of the bone"));
   Character moved = make_block_figure();  // Here a clip says that the part is a limb of its own.
   moved.clips.push_back({"wag", 1.0f, {}});
   moved.clips[0].channels.push_back(
