@@ -6,8 +6,8 @@
 
 namespace sunder::tear {
 
-/// What a face sees of a lip, or of a corner around which paths from a lip bend: the straight paths
-/// that lead to it, unfolded into the plane of the face.
+/// Straight paths that cross a face on their way from a lip, or from a corner around which paths
+/// from a lip bend, unfolded into the plane of the face.
 struct Beam {
   enum class Kind : std::uint8_t {
     segment,  ///< A lip in the face itself: all of the face sees it.

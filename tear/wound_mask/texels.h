@@ -11,8 +11,8 @@
 
 namespace sunder::tear {
 
-/// Which triangle of a mesh each texel of a texture shows: the one at its centre or, near the
-/// border of a chart, the nearest one.
+/// Assigns each texel of a texture a triangle of the mesh: the one at the texel's centre or, near
+/// the border of a chart, the nearest one.
 class Texels {
  public:
   /// A triangle in units of texels; the centre of texel (i, j) is at (i, j).

@@ -7,7 +7,7 @@
 
 namespace sunder::tear {
 
-/// What operations left of a triangle of the source.
+/// The parts of one triangle of the source that operations left.
 struct TornParts {
   std::vector<LipSegment> lips;  ///< Ascending, each once.
   /// Barycentric coordinates of the corners of what is left; empty unless skin was removed.

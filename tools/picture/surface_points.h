@@ -10,13 +10,19 @@
 
 namespace sunder::tools {
 
-/// The points of a character's surface in one pose, and which are joined by edges.
+/// The places of a character's points in one pose.
+[[nodiscard]] std::vector<Vec3f> places_of_points(const CharacterInstance& instance,
+                                                  const std::vector<DeformedMesh>& posed);
+
+/// The points of a character's surface in one pose, which are joined by edges, and which lie on
+/// lips.
 class SurfacePoints {
  public:
   SurfacePoints(const CharacterInstance& instance, const std::vector<DeformedMesh>& posed);
 
   [[nodiscard]] const Vec3f& place(std::uint32_t point) const { return places_[point]; }
   [[nodiscard]] const std::vector<Vec3f>& places() const { return places_; }
+  [[nodiscard]] bool is_lip(std::uint32_t point) const { return is_lip_[point]; }
   [[nodiscard]] double distance(std::uint32_t a, std::uint32_t b) const {
     return static_cast<double>((places_[a] - places_[b]).norm());
   }
@@ -42,6 +48,7 @@ class SurfacePoints {
 
  private:
   std::vector<Vec3f> places_;
+  std::vector<bool> is_lip_;  ///< Per point.
   std::vector<Triangle> triangles_;
   std::vector<std::array<std::uint32_t, 2>> edges_;
 };

@@ -11,7 +11,6 @@
 #include <set>
 #include <utility>
 
-#include "tools/picture/surface_points.h"
 #include "tools/picture/unfold_skin.h"
 
 namespace sunder::tools {
@@ -80,14 +79,14 @@ using Moves = std::map<std::uint32_t, Vec3f>;  ///< Of points.
 
 /// Lets the points around those that are moved follow them, the more the shorter the edges between
 /// them are.
-void spread(const SurfacePoints& points, const std::set<std::uint32_t>& lips, Moves& moves) {
+void spread(const SurfacePoints& points, Moves& moves) {
   std::vector<std::uint32_t> ring, followers;
   for (const auto& [point, move] : moves) ring.push_back(point);
   for (int i = 0; i < kRings; ++i) {
     std::vector<std::uint32_t> next;
     for (const std::uint32_t point : ring)
       points.for_each_neighbour(point, [&](std::uint32_t other) {
-        if (lips.contains(other) || !moves.try_emplace(other, Vec3f::Zero()).second) return;
+        if (points.is_lip(other) || !moves.try_emplace(other, Vec3f::Zero()).second) return;
         next.push_back(other);
       });
     followers.insert(followers.end(), next.begin(), next.end());
@@ -110,37 +109,36 @@ void spread(const SurfacePoints& points, const std::set<std::uint32_t>& lips, Mo
 
 void taper_wounds(const CharacterInstance& instance, std::span<const Wound> wounds,
                   const std::vector<DeformedMesh>& closed, std::vector<DeformedMesh>& open) {
-  const SurfacePoints at_rest(instance, closed), opened(instance, open);
+  const SurfacePoints at_rest(instance, closed);
+  const std::vector<Vec3f> opened = places_of_points(instance, open);
+  const auto width_at = [&opened](const LipPair& pair) {
+    return static_cast<double>((opened[pair.left] - opened[pair.right]).norm());
+  };
   const FromTips from_tips(instance, wounds, at_rest);
   Moves moves;
-  std::set<std::uint32_t> lips;
-  for (const LipEdge& edge : instance.particles()->lips())
-    lips.insert(edge.points.begin(), edge.points.end());
   for (const Wound& wound : wounds) {
     const double length = length_of(instance, wound, at_rest);
     double widest = 0;
-    for (const LipPair& pair : wound.lips)
-      widest = std::max(widest, opened.distance(pair.left, pair.right));
+    for (const LipPair& pair : wound.lips) widest = std::max(widest, width_at(pair));
     if (!(length > 0) || !(widest > 0)) continue;
     for (const LipPair& pair : wound.lips) {
       if (pair.left == pair.right) continue;
-      const double width = opened.distance(pair.left, pair.right),
-                   allowed = widest * taper(from_tips.of(pair), length);
+      const double width = width_at(pair), allowed = widest * taper(from_tips.of(pair), length);
       if (!(width > allowed)) continue;
       const Vec3f move = static_cast<float>((width - allowed) / (2 * width)) *
-                         (opened.place(pair.right) - opened.place(pair.left));
+                         (opened[pair.right] - opened[pair.left]);
       moves[pair.left] = move;
       moves[pair.right] = -move;
     }
   }
-  spread(at_rest, lips, moves);
+  spread(at_rest, moves);
   for (std::uint32_t m = 0; m < open.size(); ++m) {
     const std::span<const std::uint32_t> points = instance.particles()->vertex_points(m);
     for (std::uint32_t v = 0; v < points.size(); ++v)
       if (const auto found = moves.find(points[v]); found != moves.end())
         open[m].positions[v] += found->second;
   }
-  unfold_skin(instance, closed, open);
+  unfold_skin(instance, at_rest, closed, open);
 }
 
 }  // namespace sunder::tools

@@ -5,8 +5,6 @@
 #include <set>
 #include <vector>
 
-#include "tools/picture/surface_points.h"
-
 namespace sunder::tools {
 namespace {
 
@@ -20,8 +18,8 @@ constexpr int kLoosePasses = 16;
 /// How the surface moved from one state to another, and where that folded it.
 class Moved {
  public:
-  Moved(const SurfacePoints& closed, const SurfacePoints& open) : closed_(closed) {
-    const std::vector<Vec3f>&from = closed.places(), &to = open.places();
+  Moved(const SurfacePoints& closed, const std::vector<Vec3f>& to) : closed_(closed) {
+    const std::vector<Vec3f>& from = closed.places();
     for (std::size_t p = 0; p < from.size(); ++p) moves.push_back(to[p] - from[p]);
     for (const Triangle& triangle : closed.triangles())
       if (moves[triangle[0]] != Vec3f::Zero() || moves[triangle[1]] != Vec3f::Zero() ||
@@ -83,7 +81,7 @@ std::set<std::uint32_t> corners(const SurfacePoints& surface,
   return points;
 }
 
-Unfolded unfolded(const std::set<std::uint32_t>& lips, const SurfacePoints& closed, Moved moved) {
+Unfolded unfolded(const SurfacePoints& closed, Moved moved) {
   std::vector<Triangle> folded;
   double least = moved.find_folded(folded);
   Unfolded best{moved.moves, {}};
@@ -92,7 +90,7 @@ Unfolded unfolded(const std::set<std::uint32_t>& lips, const SurfacePoints& clos
   for (int round = 0; round < kMostRounds && !folded.empty(); ++round) {
     for (const std::uint32_t point : corners(closed, folded, rounds_in_vain > 1)) {
       best.mended.insert(point);
-      if (!lips.contains(point) || rounds_in_vain > 0) loose.insert(point);
+      if (!closed.is_lip(point) || rounds_in_vain > 0) loose.insert(point);
     }
     for (int pass = 0; pass < kLoosePasses; ++pass)
       for (const std::uint32_t point : loose) moved.follow_neighbours(point);
@@ -119,13 +117,10 @@ std::vector<Vec3f> facings(const std::vector<Triangle>& triangles,
 
 }  // namespace
 
-void unfold_skin(const CharacterInstance& instance, const std::vector<DeformedMesh>& closed,
-                 std::vector<DeformedMesh>& open) {
-  const SurfacePoints from(instance, closed), to(instance, open);
-  std::set<std::uint32_t> lips;
-  for (const LipEdge& edge : instance.particles()->lips())
-    lips.insert(edge.points.begin(), edge.points.end());
-  const auto [moves, mended] = unfolded(lips, from, Moved(from, to));
+void unfold_skin(const CharacterInstance& instance, const SurfacePoints& from,
+                 const std::vector<DeformedMesh>& closed, std::vector<DeformedMesh>& open) {
+  const std::vector<Vec3f> to = places_of_points(instance, open);
+  const auto [moves, mended] = unfolded(from, Moved(from, to));
   if (mended.empty()) return;
   std::vector<Vec3f> places = from.places();
   for (std::size_t p = 0; p < places.size(); ++p) places[p] += moves[p];
@@ -136,7 +131,7 @@ void unfold_skin(const CharacterInstance& instance, const std::vector<DeformedMe
     for (std::uint32_t v = 0; v < points.size(); ++v) {
       const std::uint32_t point = points[v];
       if (!mended.contains(point)) continue;
-      open[m].positions[v] += places[point] - to.place(point);
+      open[m].positions[v] += places[point] - to[point];
       if (open[m].normals.empty() || closed[m].normals.empty()) continue;
       const Vec3f normal = closed[m].normals[v] + facing[point] - faced[point];
       if (normal.norm() > 0.0f) open[m].normals[v] = normal.normalized();

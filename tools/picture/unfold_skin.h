@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "tools/picture/open_lips.h"
+#include "tools/picture/surface_points.h"
 
 namespace sunder::tools {
 
@@ -11,8 +11,9 @@ namespace sunder::tools {
 /// it, a point beside it only by the particles that the two share; where a point of the source is
 /// nearer to the lip than the lip moves, the triangles between them fold. Lips themselves move only
 /// where that alone does not unfold them, by a part of what they moved.
+/// @param from          the surface of `closed`.
 /// @param closed, open  in one pose, of the instance.
-void unfold_skin(const CharacterInstance& instance, const std::vector<DeformedMesh>& closed,
-                 std::vector<DeformedMesh>& open);
+void unfold_skin(const CharacterInstance& instance, const SurfacePoints& from,
+                 const std::vector<DeformedMesh>& closed, std::vector<DeformedMesh>& open);
 
 }  // namespace sunder::tools

@@ -26,7 +26,7 @@ struct TexelRectangle {
   bool operator==(const TexelRectangle&) const = default;
 };
 
-/// What of a mesh the texture cannot show.
+/// Counts of what the texture cannot show.
 struct WoundMaskNotes {
   /// Texels whose centre is inside several triangles: mirrored or stacked charts. They show the
   /// wounds of the triangle with the lowest index alone.
