@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/internal/ordered.h"
 #include "skinning/internal/character_pose.h"
 
 namespace sunder::aim {
@@ -16,6 +17,11 @@ std::array<Index, 2> PosedSurface::vertex(Index point) const {
   if (corner == kNone) return {kNone, kNone};
   const tear::TriangleRef ref = surface_->triangle(corner / 3);
   return {ref.mesh, character_->meshes[ref.mesh].triangles[ref.triangle][corner % 3]};
+}
+
+double PosedSurface::area(Index face) const {
+  const auto [a, b, c] = corners(face);
+  return 0.5 * norm((b - a).cross(c - a));
 }
 
 Result<PosedSurface> PosedSurface::create(const TornModel& model, const PoseSpec& spec) {

@@ -27,6 +27,7 @@ class PosedSurface {
     return {positions_[point(3 * face)], positions_[point(3 * face + 1)],
             positions_[point(3 * face + 2)]};
   }
+  [[nodiscard]] double area(Index face) const;
   /// A vertex of a point: its mesh and its index there; kNone for a point without faces.
   [[nodiscard]] std::array<Index, 2> vertex(Index point) const;
   [[nodiscard]] Vec3d joint(Index bone) const { return pose_.model_from_bone[bone].translation(); }

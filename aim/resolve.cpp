@@ -7,6 +7,7 @@
 #include "aim/bone_tree.h"
 #include "aim/facing.h"
 #include "aim/limb.h"
+#include "aim/limb_pieces.h"
 #include "aim/operations.h"
 #include "aim/posed_surface.h"
 #include "core/internal/out_of_memory.h"
@@ -172,6 +173,14 @@ Result<SeveredPieces> severed_pieces(const TornModel& model, const SeverOperatio
     const auto surface = aim::PosedSurface::create(model, sever.pose);
     if (!surface) return surface.error();
     return aim::find_severed_pieces(*surface, sever);
+  });
+}
+
+Result<LimbPieces> limb_pieces(const TornModel& model, const SeverOperation& sever) {
+  return or_out_of_memory([&]() -> Result<LimbPieces> {
+    const auto surface = aim::PosedSurface::create(model, sever.pose);
+    if (!surface) return surface.error();
+    return aim::find_limb_pieces(*surface, sever.place);
   });
 }
 

@@ -71,11 +71,6 @@ std::vector<std::array<Index, 2>> coincident_edges(const PosedSurface& surface,
   return pairs;
 }
 
-double area_of(const PosedSurface& surface, Index face) {
-  const auto [a, b, c] = surface.corners(face);
-  return 0.5 * norm((b - a).cross(c - a));
-}
-
 }  // namespace
 
 SurfaceParts::SurfaceParts(const Limb& limb) : place_of_point_(places_of(limb.surface)) {
@@ -119,7 +114,7 @@ void SurfaceParts::measure(const Limb& limb) {
   const Index count = limb.surface.face_count();
   double area = 0, faces = 0;
   for (Index face = 0; face < count; ++face) {
-    sizes_.push_back(limb.surface.is_live(face) ? area_of(limb.surface, face) : 0.0);
+    sizes_.push_back(limb.surface.is_live(face) ? limb.surface.area(face) : 0.0);
     area += sizes_.back();
     faces += limb.surface.is_live(face) ? 1 : 0;
   }
@@ -142,7 +137,7 @@ void SurfaceParts::measure_points(const PosedSurface& surface) {
   double area = 0, places = 0;
   for (Index face = 0; face < surface.face_count(); ++face) {
     if (!surface.is_live(face)) continue;
-    const double of_face = area_of(surface, face);
+    const double of_face = surface.area(face);
     area += of_face;
     for (Index corner = 3 * face; corner < 3 * face + 3; ++corner) {
       const Index point = surface.point(corner);

@@ -47,14 +47,6 @@ void add_tube(Character& character, const Mesh& tube, const std::string& name, f
   character.meshes.push_back(std::move(mesh));
 }
 
-/// A rigid mesh: all of its vertices follow one slot.
-void attach_to(Mesh& mesh, std::uint32_t slot) {
-  const std::uint32_t count = mesh.vertex_count();
-  mesh.weights = SkinWeights();
-  const Influence whole{slot, 1.0f};
-  for (std::uint32_t vertex = 0; vertex < count; ++vertex) mesh.weights.append({&whole, 1});
-}
-
 /// An arm of three bones along y in a sleeve, a club beside it that the hand holds, and another
 /// arm. The forearm reaches from y = 1 to 2, the arm is a metre wide and the sleeve 1.2 m.
 Character make_armed_arm() {
@@ -77,9 +69,9 @@ Character make_armed_arm() {
   character.meshes[0].name = "skin";
   add_tube(character, tube, "sleeve", 1.2f, Vec3f::Zero());
   add_tube(character, tube, "club", 0.2f, Vec3f(0.95f, 0, 0));
-  attach_to(character.meshes[kClub], 2);
+  test::attach_to(character.meshes[kClub], 2);
   add_tube(character, tube, "other", 1.0f, Vec3f(3, 0, 0));
-  attach_to(character.meshes[kOtherArm], 3);
+  test::attach_to(character.meshes[kOtherArm], 3);
   return character;
 }
 
@@ -130,41 +122,18 @@ TEST(Sever, cuts_skin_and_sleeve_but_neither_club_nor_the_other_arm) {
   }
 }
 
-/// A trunk and a head, both of rigid parts, as programs for blocks write them: the head's bone
-/// moves nothing, its part hangs on a bone of its own elsewhere.
-Character make_block_figure() {
-  Character character = test::make_tube(24, 16, 1);
-  character.skeleton.bones[0].name = "trunk";
-  attach_to(character.meshes[0], 0);
-  const float height = character.meshes[0].positions.back().y();
-  for (const auto& [name, move] :
-       {std::pair("head", Vec3f(0, height, 0)), std::pair("cube", Vec3f(0.3f, 0.1f, 0))}) {
-    Bone bone;
-    bone.name = name;
-    bone.parent = static_cast<std::uint32_t>(character.skeleton.bones.size() - 1);
-    bone.rest.translation = move;
-    character.skeleton.bones.push_back(bone);
-  }
-  Skin& skin = character.skins[0];
-  skin.bones.push_back(2);
-  Affine3f bone_from_bind = Affine3f::Identity();
-  bone_from_bind.translation() = Vec3f(-0.3f, -height - 0.1f, 0);
-  skin.bone_from_bind.push_back(bone_from_bind);
-  add_tube(character, Mesh(character.meshes[0]), "head", 1.0f, Vec3f(0, height + 0.05f, 0));
-  attach_to(character.meshes[1], 1);
-  return character;
-}
-
 TEST(Sever, a_bone_that_moves_nothing_is_the_rigid_parts_below_it) {
-  TornModel model = make_model(make_block_figure());
+  TornModel model = make_model(test::make_block_figure());
   const TearReport report = apply_aimed(model, sever_at("head", 0.2));
   EXPECT_EQ(torn_meshes(model), (std::set<std::uint32_t>{1}));
   EXPECT_EQ(report.runs, 1u);
-  EXPECT_TRUE(at_nearest_share(make_model(make_block_figure()), sever_at("head", 0.1)));
-  const auto before_it = at_nearest_share(make_model(make_block_figure()), sever_at("head", 0.0));
+  EXPECT_TRUE(at_nearest_share(make_model(test::make_block_figure()), sever_at("head", 0.1)));
+  const auto before_it =
+      at_nearest_share(make_model(test::make_block_figure()), sever_at("head", 0.0));
   ASSERT_FALSE(before_it) << "blocks are cut at the share that is asked for, or not";
   EXPECT_THAT(std::string(before_it.error().text()), HasSubstr("no share of the bone"));
-  Character moved = make_block_figure();  // Here a clip says that the part is a limb of its own.
+  Character moved =
+      test::make_block_figure();  // Here a clip says that the part is a limb of its own.
   moved.clips.push_back({"wag", 1.0f, {}});
   moved.clips[0].channels.push_back(
       {ChannelTarget::rotation, 2, 4, {}, {0.0f, 1.0f}, {0, 0, 0, 1, 0, 0, 1, 0}});

@@ -4,6 +4,7 @@
 #include <sunder/tear/detached_piece.h>
 #include <sunder/tear/torn_model.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -22,6 +23,8 @@ namespace sunder {
 namespace {
 
 using test::make_model;
+using testing::ElementsAre;
+using testing::HasSubstr;
 using testing::IsEmpty;
 
 constexpr std::uint32_t kHand = 2;  // bone and slot
@@ -34,10 +37,7 @@ void add_prop(Character& character, const Mesh& shape, const std::string& name, 
   mesh.first_morph_weight = static_cast<std::uint32_t>(character.rest_morph_weights.size());
   character.rest_morph_weights.push_back(0.0f);
   for (Vec3f& position : mesh.positions) position = position.cwiseProduct(scale) + move;
-  const std::uint32_t count = mesh.vertex_count();
-  mesh.weights = SkinWeights();
-  const Influence whole{slot, 1.0f};
-  for (std::uint32_t vertex = 0; vertex < count; ++vertex) mesh.weights.append({&whole, 1});
+  test::attach_to(mesh, slot);
   character.meshes.push_back(std::move(mesh));
 }
 
@@ -500,6 +500,42 @@ TEST(NearestShare, names_the_bone_that_can_be_severed_instead) {
   EXPECT_THAT(refusal_of(model, "helper"),
               testing::HasSubstr("'bone1', which moves it, can be severed"));
   EXPECT_TRUE(at_nearest_share(model, sever_of("bone1", 0)));
+}
+
+/// The meshes that are left of a model when the pieces of a limb are taken off.
+std::vector<std::string> meshes_left(Character character, const std::string& bone) {
+  TornModel model = make_model(std::move(character));
+  const auto pieces = limb_pieces(model, sever_of(bone, 0));
+  EXPECT_TRUE(pieces) << pieces.error().text();
+  if (!pieces) return {};
+  for (const PiecePlace& place : pieces->places)
+    EXPECT_TRUE(apply_operation(model, DetachOperation{{}, place}));
+  std::vector<std::string> left;
+  for (const Mesh& mesh : model.character().meshes)
+    if (!std::ranges::all_of(mesh.triangles, is_retired)) left.push_back(mesh.name);
+  return left;
+}
+
+TEST(LimbPieces, a_head_of_blocks_comes_off_whole) {
+  EXPECT_THAT(meshes_left(test::make_block_figure(), "head"), ElementsAre("tube"));
+  EXPECT_THAT(meshes_left(test::make_block_figure(), "cube"), ElementsAre("tube"));
+  const TornModel model = make_model(test::make_block_figure());
+  EXPECT_TRUE(limb_pieces(model, sever_of("head", 0))->are_rigid_parts);
+  EXPECT_FALSE(limb_pieces(model, sever_of("cube", 0))->are_rigid_parts);
+}
+
+TEST(LimbPieces, of_a_limb_that_is_joined_to_the_rest_there_are_none) {
+  const auto failure_of = [](Character character, const std::string& bone) {
+    const auto pieces = limb_pieces(make_model(std::move(character)), sever_of(bone, 0));
+    EXPECT_FALSE(pieces);
+    return std::string(pieces.error().text());
+  };
+  EXPECT_THAT(failure_of(test::make_tube(24, 16, 3), "bone2"), HasSubstr("joined to the rest"));
+  EXPECT_THAT(failure_of(test::make_block_figure(), "trunk"), HasSubstr("all of the model"));
+  EXPECT_THAT(failure_of(test::make_block_figure(), "Tail"), HasSubstr("no bone is named"));
+  Character idle = test::make_block_figure();
+  test::attach_to(idle.meshes[1], 0);
+  EXPECT_THAT(failure_of(std::move(idle), "head"), HasSubstr("move nothing"));
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // `sunder tear` with operations that name bones.
+#include "support/models/rigs.h"
 #include "tools/command_fixture.h"
 
 namespace sunder::command_test {
@@ -254,6 +255,25 @@ TEST_F(AimedCommand, a_severed_limb_is_taken_off_and_written) {
   EXPECT_THAT(parts.err, HasSubstr("parts: expected all or none"));
   EXPECT_THAT(tear({"--sever", "Trunk4@0.5,detach=maybe"}).err, HasSubstr("detach: expected"));
   EXPECT_THAT(tear({"--slash", "Trunk4@0.5,detach"}).err, HasSubstr("unknown field 'detach'"));
+}
+
+TEST_F(AimedCommand, a_limb_of_blocks_is_taken_off_without_a_cut) {
+  ASSERT_TRUE(save_glb(path("blocks.glb"), test::make_block_figure()));
+  const auto tear_head = [](const char* sever) {
+    return run_sunder({"tear", path("blocks.glb"), "-o", path("headless.glb"), "--force", "--sever",
+                       sever, "--report", path("headless.json")});
+  };
+  const CommandResult whole = tear_head("head,detach");
+  ASSERT_EQ(whole.exit_code, 0) << whole.err;
+  EXPECT_THAT(whole.err, HasSubstr("comes off without a cut"));
+  const json operations = read_json("headless.json")["operations"];
+  ASSERT_EQ(operations.size(), 1u);
+  EXPECT_EQ(operations[0]["op"], "detach");
+  EXPECT_EQ(tear_head("head@0.3,detach").exit_code, 0);
+  EXPECT_EQ(read_json("headless.json")["operations"][0]["op"], "cut");
+  const CommandResult cut = tear_head("head");
+  EXPECT_EQ(cut.exit_code, 2);
+  EXPECT_THAT(cut.err, HasSubstr("--sever head,detach takes them off"));
 }
 
 TEST_F(AimedCommand, says_where_the_character_faces) {

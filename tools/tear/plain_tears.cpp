@@ -77,18 +77,48 @@ Result<AimedOperation> placed(const AimedOperation& operation, const TearRun& ru
   return moved;
 }
 
-/// The detachments of what a sever takes off.
-Result<std::vector<Operation>> detachments(const SeverOperation& sever, bool takes_props,
-                                           const TornModel& model) {
-  const Result<SeveredPieces> pieces = severed_pieces(model, sever);
-  if (!pieces) return pieces.error();
+std::vector<Operation> detachments(const PoseSpec& pose, const std::vector<PiecePlace>& pieces) {
   std::vector<Operation> operations;
-  for (const PiecePlace& piece : pieces->severed)
-    operations.push_back(DetachOperation{sever.pose, piece});
-  if (takes_props)
-    for (const PiecePlace& prop : pieces->props)
-      operations.push_back(DetachOperation{sever.pose, prop});
+  for (const PiecePlace& piece : pieces) operations.push_back(DetachOperation{pose, piece});
   return operations;
+}
+
+/// The pieces that a sever takes off.
+Result<std::vector<PiecePlace>> pieces_off(const SeverOperation& sever, bool takes_props,
+                                           const TornModel& model) {
+  Result<SeveredPieces> pieces = severed_pieces(model, sever);
+  if (!pieces) return pieces.error();
+  if (takes_props)
+    pieces->severed.insert(pieces->severed.end(), pieces->props.begin(), pieces->props.end());
+  return std::move(pieces->severed);
+}
+
+/// The operations that take a limb off without a cut.
+PlainTears without_a_cut(const PoseSpec& pose, const LimbPieces& pieces) {
+  PlainTears tears;
+  tears.detachments = detachments(pose, pieces.places);
+  tears.operation = tears.detachments.front();
+  tears.detachments.erase(tears.detachments.begin());
+  tears.notes.emplace_back("comes off without a cut: the limb is made of pieces of its own");
+  return tears;
+}
+
+/// The pieces that the limb of a sever is made of; empty if it is joined to the rest, and for other
+/// operations.
+std::optional<LimbPieces> own_pieces(const AimedOperation& operation, const TornModel& model) {
+  const auto* const sever = std::get_if<SeverOperation>(&operation);
+  if (sever == nullptr) return {};
+  Result<LimbPieces> pieces = limb_pieces(model, *sever);
+  return pieces ? std::optional(std::move(*pieces)) : std::nullopt;
+}
+
+/// The refusal of a sever that no cut makes, of a limb that comes off without one.
+Status no_cut(const Status& refusal, const char* bone) {
+  return Status::failure(
+      refusal.code(), refusal.index(),
+      "no share of '%.60s' was found at which a cut severs the limb alone, which "
+      "is made of pieces of its own; --sever %.60s,detach takes them off",
+      bone, bone);
 }
 
 }  // namespace
@@ -101,19 +131,31 @@ Result<PlainTears> plain_tears(const WantedOperation& wanted, const TearRun& run
     return tears;
   }
   Result<AimedOperation> aimed = std::get<AimedOperation>(operation);
+  const bool detaches =
+      wanted.option && wanted.option->detaches.value_or(run.request.pieces.has_value());
   if (wanted.option) aimed = seen(*aimed, run, tears.notes);
-  if (aimed && wanted.option && !wanted.option->has_share) aimed = placed(*aimed, run, tears.notes);
   if (!aimed) return aimed.error();
+  if (wanted.option && !wanted.option->has_share) {
+    const std::optional<LimbPieces> pieces = own_pieces(*aimed, run.model);
+    if (detaches && pieces && pieces->are_rigid_parts)
+      return without_a_cut(std::get<SeverOperation>(*aimed).pose, *pieces);
+    Result<AimedOperation> moved = placed(*aimed, run, tears.notes);
+    if (!moved && pieces) {
+      const auto& sever = std::get<SeverOperation>(*aimed);
+      if (detaches) return without_a_cut(sever.pose, *pieces);
+      return no_cut(moved.error(), sever.place.bone.c_str());
+    }
+    if (!moved) return moved.error();
+    aimed = std::move(moved);
+  }
   Result<Operation> plain = resolve(run.model, *aimed);
   if (!plain) return plain.error();
   tears.operation = std::move(*plain);
   const auto* const sever = std::get_if<SeverOperation>(&*aimed);
-  const bool detaches =
-      wanted.option && wanted.option->detaches.value_or(run.request.pieces.has_value());
   if (sever == nullptr || !detaches) return tears;
-  auto detached = detachments(*sever, wanted.option->takes_props, run.model);
-  if (!detached) return detached.error();
-  tears.detachments = std::move(*detached);
+  const auto pieces = pieces_off(*sever, wanted.option->takes_props, run.model);
+  if (!pieces) return pieces.error();
+  tears.detachments = detachments(sever->pose, *pieces);
   return tears;
 }
 

@@ -67,6 +67,23 @@ struct SeveredPieces {
 [[nodiscard]] SUNDER_API Result<SeveredPieces> severed_pieces(const TornModel& model,
                                                               const SeverOperation& sever);
 
+/// The connected pieces that a limb is made of. detach() takes them off without a cut.
+struct LimbPieces {
+  std::vector<PiecePlace> places;  ///< On each.
+  /// Whether the bone itself moves nothing and the pieces are rigid parts below it: a head of
+  /// cubes, where a cut takes off no more than a slice of one.
+  bool are_rigid_parts = false;
+};
+
+/// Finds the pieces of a limb that shares no surface with the rest of the model: those of which it
+/// moves nine tenths or more of the area.
+/// @param sever  whose pose and bone count.
+/// @return not_found for an unknown bone, if these hold less than nine tenths of what the limb
+///         moves, and if nothing would be left; the failures of make_pose(). O(size of the model),
+///         allocates. Reentrant.
+[[nodiscard]] SUNDER_API Result<LimbPieces> limb_pieces(const TornModel& model,
+                                                        const SeverOperation& sever);
+
 /// The bone with a name or, if there is none, the only one with that name behind a namespace or
 /// prefix that ends with ':' or '|'.
 /// @return not_found, with the names most like it; invalid_argument if several bones have the name

@@ -245,6 +245,41 @@ Character make_two_tubes(std::uint32_t rings, std::uint32_t sides) {
   return character;
 }
 
+void attach_to(Mesh& mesh, std::uint32_t slot) {
+  const std::uint32_t count = mesh.vertex_count();
+  mesh.weights = SkinWeights();
+  const Influence whole{slot, 1.0f};
+  for (std::uint32_t vertex = 0; vertex < count; ++vertex) mesh.weights.append({&whole, 1});
+}
+
+Character make_block_figure() {
+  Character character = make_tube(24, 16, 1);
+  character.skeleton.bones[0].name = "trunk";
+  attach_to(character.meshes[0], 0);
+  const float height = character.meshes[0].positions.back().y();
+  for (const auto& [name, move] :
+       {std::pair("head", Vec3f(0, height, 0)), std::pair("cube", Vec3f(0.3f, 0.1f, 0))}) {
+    Bone bone;
+    bone.name = name;
+    bone.parent = static_cast<std::uint32_t>(character.skeleton.bones.size() - 1);
+    bone.rest.translation = move;
+    character.skeleton.bones.push_back(bone);
+  }
+  Skin& skin = character.skins[0];
+  skin.bones.push_back(2);
+  Affine3f bone_from_bind = Affine3f::Identity();
+  bone_from_bind.translation() = Vec3f(-0.3f, -height - 0.1f, 0);
+  skin.bone_from_bind.push_back(bone_from_bind);
+  Mesh head = character.meshes[0];
+  head.name = "head";
+  head.first_morph_weight = static_cast<std::uint32_t>(character.rest_morph_weights.size());
+  character.rest_morph_weights.push_back(0.0f);
+  for (Vec3f& position : head.positions) position.y() += height + 0.05f;
+  attach_to(head, 1);
+  character.meshes.push_back(std::move(head));
+  return character;
+}
+
 Character make_soup(Random& random) {
   Character character = make_tube(2, 3, 3);
   Mesh mesh;

@@ -31,6 +31,13 @@ void rig_along(Character& character, std::uint32_t bone_count);
 /// stands on the lower one's cap.
 Character make_two_tubes(std::uint32_t rings, std::uint32_t sides);
 
+/// Lets all vertices of a mesh follow one slot of its skin.
+void attach_to(Mesh& mesh, std::uint32_t slot);
+
+/// A trunk and a head of rigid parts, as programs for blocks write them: the bone "head" moves
+/// nothing, its part, which stands 5 cm above the trunk, hangs on a bone "cube" elsewhere.
+Character make_block_figure();
+
 /// A triangle soup: random triangles on a coarse grid, with edges of many faces, duplicate and
 /// flipped faces, faces without area, unused vertices.
 Character make_soup(Random& random);
