@@ -12,6 +12,7 @@
 
 #include "support/machine/random.h"
 #include "support/machine/temporary_folder.h"
+#include "tools/render/holed_triangles.h"
 #include "tools/render/image.h"
 #include "tools/render/lighting.h"
 #include "tools/render/palette.h"
@@ -421,7 +422,10 @@ TEST(Trace, even_surfaces_look_as_if_every_sample_were_shaded) {
   const Camera camera{{0.5, 3, 2}, {0, 0, 0}, {0, 1, 0}, 35};
   const PictureSize size{160, 120};
   const Picture even = trace(scene, camera, size);
-  for (RenderMaterial& material : scene.materials) material.alpha = RenderMaterial::Alpha::blended;
+  for (RenderMaterial& material : scene.materials) {
+    material.alpha = RenderMaterial::Alpha::blended;
+    material.factor.w() = 0.995f;
+  }
   const Picture sampled = trace(scene, camera, size);
   int sum = 0;
   for (std::size_t i = 0; i < even.colors.size(); ++i)
@@ -432,6 +436,66 @@ TEST(Trace, even_surfaces_look_as_if_every_sample_were_shaded) {
     }
   EXPECT_LT(sum, static_cast<int>(even.colors.size()) * 3);
   EXPECT_GT(sum, 0);
+}
+
+/// The corners of a triangle's texture coordinates in pixels of an image of 8 x 8, of which the
+/// pixel (5, 2) alone is clear.
+bool is_holed(const std::array<Vec2f, 3>& pixels, bool is_pixelated,
+              RenderMaterial::Wrap wrap = RenderMaterial::Wrap::repeat) {
+  Image image{8, 8, std::vector<std::uint8_t>(256, 255)};
+  image.rgba[4 * (2 * 8 + 5) + 3] = 254;
+  RenderScene scene;
+  scene.materials.resize(1);
+  scene.materials[0].image = &image;
+  scene.materials[0].alpha = RenderMaterial::Alpha::cut;
+  scene.materials[0].is_pixelated = is_pixelated;
+  scene.materials[0].wrap = {wrap, wrap};
+  RenderTriangle triangle;
+  for (std::size_t i = 0; i < 3; ++i) {
+    triangle.uvs[i] = pixels[i] / 8;
+    triangle.tints[i].setOnes();
+  }
+  scene.triangles = {triangle};
+  return holed_triangles(scene)[0];
+}
+
+TEST(HoledTriangles, are_those_that_show_a_clear_pixel) {
+  using enum RenderMaterial::Wrap;
+  EXPECT_TRUE(is_holed({{{4, 1}, {7, 1}, {4, 4}}}, true));
+  EXPECT_FALSE(is_holed({{{6, 3}, {8, 3}, {6, 8}}}, true)) << "it ends at the pixel's edges";
+  EXPECT_TRUE(is_holed({{{6, 3}, {8, 3}, {6, 8}}}, false)) << "pixels are mixed there";
+  EXPECT_FALSE(is_holed({{{6.6f, 3.6f}, {7.4f, 3.6f}, {7, 7}}}, false));
+  EXPECT_TRUE(is_holed({{{13, 10}, {13.5f, 10}, {13, 10.5f}}}, true)) << "the next repetition";
+  EXPECT_TRUE(is_holed({{{-3, -6}, {-2.5f, -6}, {-3, -5.5f}}}, true)) << "and the one before";
+  EXPECT_TRUE(is_holed({{{7, 2}, {14, 2}, {7, 2.5f}}}, true)) << "over the end of the image";
+  EXPECT_FALSE(is_holed({{{7, 2}, {12, 2}, {7, 2.5f}}}, true));
+  EXPECT_TRUE(is_holed({{{0, 0}, {1000, 0}, {0, 1000}}}, true));
+  EXPECT_TRUE(is_holed({{{10, 2}, {11, 2}, {10, 2.5f}}}, true, mirror)) << "8 is 7, 10 is 5";
+  EXPECT_FALSE(is_holed({{{13, 2}, {13.5f, 2}, {13, 2.5f}}}, true, mirror));
+  EXPECT_FALSE(is_holed({{{13, 2}, {20, 2}, {13, 2.5f}}}, true, clamp)) << "all is the last pixel";
+  EXPECT_TRUE(is_holed({{{-4, 2}, {20, 2}, {13, 2.5f}}}, true, clamp));
+}
+
+/// An opaque image looks alike whatever the material says of its alpha.
+TEST(Trace, a_material_that_cuts_nothing_out_is_opaque) {
+  Image image{16, 16, {}};
+  for (int i = 0; i < 256; ++i)
+    for (const int byte : {i, 255 - i, 7 * i % 256, 255})
+      image.rgba.push_back(static_cast<std::uint8_t>(byte));
+  RenderScene scene;
+  scene.materials.resize(1);
+  scene.materials[0].factor.setOnes();
+  scene.materials[0].image = &image;
+  add_square(0, 1, 0, scene);
+  const Camera camera{{0.5, 3, 2}, {0, 0, 0}, {0, 1, 0}, 35};
+  const PictureSize size{80, 60};
+  const Picture opaque = trace(scene, camera, size);
+  for (const auto alpha : {RenderMaterial::Alpha::cut, RenderMaterial::Alpha::blended}) {
+    scene.materials[0].alpha = alpha;
+    EXPECT_EQ(trace(scene, camera, size).colors, opaque.colors);
+  }
+  image.rgba[4 * (16 * 8 + 8) + 3] = 0;
+  EXPECT_NE(trace(scene, camera, size).colors, opaque.colors) << "a hole in the middle";
 }
 
 TEST(Trace, alpha_counts_only_where_the_material_says_so) {

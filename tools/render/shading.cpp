@@ -6,6 +6,7 @@
 #include <span>
 
 #include "tools/render/flesh.h"
+#include "tools/render/holed_triangles.h"
 #include "tools/render/texture.h"
 
 namespace sunder::tools {
@@ -77,14 +78,13 @@ Shading::Shading(const RenderScene& scene, const Lighting& lighting)
     : scene_(scene),
       lighting_(lighting),
       redness_(scene.lips, scene.redness),
+      are_holed_(holed_triangles(scene)),
       nearly_nothing_(2e-5f * size_of(scene)),
       tree_(corners_of(scene), holes()) {}
 
 TriangleTree::Holes Shading::holes() const {
   TriangleTree::Holes holes;
-  for (const RenderTriangle& triangle : scene_.triangles)
-    holes.may_be_in.push_back(scene_.materials[triangle.material].alpha !=
-                              RenderMaterial::Alpha::ignored);
+  holes.may_be_in = are_holed_;
   holes.lets_pass = [this](Index triangle, const Vec3f& shares, TriangleTree::Ray ray) {
     return lets_pass(triangle, shares, ray);
   };
@@ -166,7 +166,7 @@ bool Shading::look_alike(const std::array<TriangleTree::Hit, TriangleTree::kBund
   if (hits[0].triangle == kNone) return false;
   const RenderTriangle& first = scene_.triangles[hits[0].triangle];
   const RenderMaterial& material = scene_.materials[first.material];
-  if (material.is_flesh || material.alpha != RenderMaterial::Alpha::ignored) return false;
+  if (material.is_flesh || are_holed_[hits[0].triangle]) return false;
   const Vec3f place = from + hits[0].distance * along[0];
   const Vec3f shares = shares_of(first.corners, place);
   const Vec3f normal = mean(shares, first.normals).normalized();
@@ -175,7 +175,8 @@ bool Shading::look_alike(const std::array<TriangleTree::Hit, TriangleTree::kBund
   for (std::size_t i = 0; i < hits.size(); ++i) {
     if (hits[i].triangle == kNone) return false;
     const RenderTriangle& other = scene_.triangles[hits[i].triangle];
-    if (other.material != first.material || other.has_flesh_inside) return false;
+    if (other.material != first.material || other.has_flesh_inside || are_holed_[hits[i].triangle])
+      return false;
     if (&other == &first && !has_image) continue;
     const Vec3f other_place = from + hits[i].distance * along[i];
     const Vec3f other_shares = shares_of(other.corners, other_place);

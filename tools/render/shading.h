@@ -79,7 +79,8 @@ class Shading {
   const RenderScene& scene_;
   const Lighting& lighting_;
   Redness redness_;
-  float nearly_nothing_ = 0;  ///< By which rays start above surfaces.
+  std::vector<bool> are_holed_;  ///< Per triangle.
+  float nearly_nothing_ = 0;     ///< By which rays start above surfaces.
   TriangleTree tree_;
 };
 
