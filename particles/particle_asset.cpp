@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <new>
@@ -30,6 +31,13 @@ Status find_range(const DecompositionOptions& options, double diagonal, double e
   return Status::failure(StatusCode::invalid_argument, kNone,
                          "the range of particles is %g m; it must be from %g to %g", report.range,
                          kShortestRange, kLongestRange);
+}
+
+/// Whether a mesh has normals or tangents, which displacements turn by the gradients of weights.
+bool has_directions(const Character& character) {
+  return std::ranges::any_of(character.meshes, [](const Mesh& mesh) {
+    return !mesh.normals.empty() || !mesh.tangents.empty();
+  });
 }
 
 }  // namespace
@@ -82,7 +90,8 @@ Result<std::shared_ptr<const ParticleAsset>> ParticleAsset::create(
   try {
     const std::shared_ptr<particles::Structure> structure = std::move(*made);
     structure->finish(model.surface().triangle_count());
-    (void)structure->gradients->of(model.surface(), *structure);
+    if (has_directions(model.character()))
+      (void)structure->gradients->of(model.surface(), *structure);
     // Only sets that follow tears need scratch memory.
     structure->scratch = {};
     return std::shared_ptr<const ParticleAsset>(new ParticleAsset(structure));

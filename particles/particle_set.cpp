@@ -127,9 +127,10 @@ std::span<const ParticleInfluences> ParticleSet::influences() const {
 }
 std::span<const std::uint32_t> ParticleSet::owners() const { return data_->now().points.owners; }
 std::span<const ParticleGradients> ParticleSet::gradients(const TornModel& model) {
-  if (!data_->own) return data_->shared->gradients->known();
+  if (!data_->own && data_->shared->gradients->is_wanted())
+    return data_->shared->gradients->known();
   try {
-    Structure& structure = *data_->own;
+    Structure& structure = data_->to_change();
     if (structure.gradients->is_up_to_date(structure.points.count()))
       return structure.gradients->known();
     // A fork may be copying it.

@@ -56,7 +56,7 @@ std::vector<Index> changed_points(const TornModel& model, const Structure& struc
 void complete(const TornModel& model, const Structure& decomposition, Structure& structure) {
   structure.gradients->forget(model.surface(), changed_points(model, structure, decomposition),
                               nullptr);
-  (void)structure.gradients->of(model.surface(), structure);
+  if (structure.gradients->is_wanted()) (void)structure.gradients->of(model.surface(), structure);
   if (structure.tears.done.empty()) return;
   for (Change& change : structure.tears.done) change.operation = Change::kUnnamed;
   Change& last = structure.tears.done.back();

@@ -7,6 +7,7 @@
 #include "core/internal/out_of_memory.h"
 #include "tear/model/asset_parts.h"
 #include "tear/model/growth.h"
+#include "tear/surface/copy_with_room.h"
 #include "tear/surface/memory_use.h"
 
 namespace sunder {
@@ -40,7 +41,10 @@ std::shared_ptr<const TornAsset> TornAsset::Parts::make_private(
 
 std::unique_ptr<TornModel::State> TornAsset::Parts::make_workspace(const TornCapacity& capacity) {
   return std::make_unique<TornModel::State>(
-      character, is_private ? std::move(surface) : tear::Surface(surface), *trees, capacity, cells);
+      character,
+      is_private ? std::move(surface)
+                 : tear::copy_with_room(surface, capacity, character->meshes.size()),
+      *trees, capacity, cells);
 }
 
 std::unique_ptr<TornModel::State> TornAsset::Parts::take(const TornCapacity& capacity) {

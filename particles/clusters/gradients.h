@@ -31,6 +31,8 @@ class Gradients {
     return is_wanted_ && unknown_.empty() && is_known_.size() == point_count &&
            gradients_.size() == point_count;
   }
+  /// Whether of() was ever called. Before, nothing is computed or logged.
+  [[nodiscard]] bool is_wanted() const { return is_wanted_; }
   /// One entry per point.
   std::span<const ParticleGradients> of(const Surface& surface, const Structure& structure);
 
@@ -43,7 +45,7 @@ class Gradients {
   std::vector<bool> is_known_;
   std::vector<Index> unknown_;  ///< Has room for all points of `is_known_`.
   Marks logged_;                ///< Points that the current change has logged.
-  bool is_wanted_ = false;      ///< Nothing is computed before the first of().
+  bool is_wanted_ = false;
 };
 
 }  // namespace sunder::particles

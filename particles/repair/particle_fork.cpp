@@ -72,7 +72,7 @@ Status ParticleFork::follow(const TornModel& replica, std::span<const ChangeReco
     }
     ParticleSet copy = StructureOf::set_of(std::move(made));
     if (Status status = copy.follow(replica, changes); !status) return status;
-    (void)copy.gradients(replica);
+    if (StructureOf::in(copy).gradients->is_wanted()) (void)copy.gradients(replica);
     data_->copy.emplace(std::move(copy));
     return {};
   } catch (const std::bad_alloc&) {

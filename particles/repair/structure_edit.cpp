@@ -178,10 +178,13 @@ void StructureEdit::put_back(const Work& work) {
         return a.particle == b.particle && a.reach == b.reach;
       }))
     return;
-  structure_.dirty.push_back(work.point);
   log_point(work.point);
   count_members(work.point, before, now);
-  points.influences[work.point] = influences_from(now);
+  // Often the particles that join or leave are not among the nearest four.
+  const ParticleInfluences influences = influences_from(now);
+  if (work.point >= first_new_point_ || influences != points.influences[work.point])
+    structure_.dirty.push_back(work.point);
+  points.influences[work.point] = influences;
   points.owners[work.point] = owner_of(now, structure_.particles);
   write_memberships(work.point, now);
 }

@@ -42,6 +42,15 @@ SUNDER_API void copy_surface_point(const Mesh& like_mesh, std::uint32_t like, st
 /// all.
 SUNDER_API void reserve_vertices(std::size_t vertex_count, std::size_t influence_count, Mesh& mesh);
 
+/// Vertices, and influences of them all, that fit into a mesh without moving its arrays.
+struct VertexRoom {
+  std::size_t vertices = 0, influences = 0;
+};
+
+/// A copy with room for more vertices and triangles, without copying twice.
+[[nodiscard]] SUNDER_API Mesh copy_with_room(const Mesh& mesh, const VertexRoom& room,
+                                             std::size_t triangle_count);
+
 /// Removes the newest vertices, down to `vertex_count`.
 SUNDER_API void remove_vertices_from(std::uint32_t vertex_count, Mesh& mesh);
 

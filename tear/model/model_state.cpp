@@ -11,6 +11,7 @@
 #include "tear/geometry/tolerances.h"
 #include "tear/model/growth.h"
 #include "tear/pieces/pieces.h"
+#include "tear/surface/copy_with_room.h"
 #include "tear/surface/describe_change.h"
 #include "tear/weights/assign_weights.h"
 
@@ -21,8 +22,8 @@ TornModel::State::State(std::shared_ptr<const Character> from, tear::Surface sur
                         std::shared_ptr<const tear::SurfaceCells> cells)
     : source(std::move(from)),
       capacity(of),
-      character(*source),
-      editor(*source, character, std::move(surface)) {
+      character(tear::copy_with_room(*source, of)),
+      editor(*source, character, std::move(surface), of) {
   posed.forest().share(trees);
   if (cells) editor.changed_cells.share(std::move(cells));
   editor.reserve(capacity);

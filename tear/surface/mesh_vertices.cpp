@@ -5,6 +5,7 @@
 
 #include "core/internal/ordered.h"
 #include "tear/geometry/tolerances.h"
+#include "tear/internal/assign_with_room.h"
 
 namespace sunder {
 namespace {
@@ -109,6 +110,19 @@ void for_each_array_pair(const Mesh& from, Mesh& to, Visit visit) {
     visit(from.morph_targets[i].normal_deltas, to.morph_targets[i].normal_deltas, 1u);
     visit(from.morph_targets[i].tangent_deltas, to.morph_targets[i].tangent_deltas, 1u);
   }
+}
+
+/// Gives a copy the sets of attributes of a mesh, without values.
+void copy_attributes(const Mesh& mesh, Mesh& copy) {
+  copy.uv_sets.resize(mesh.uv_sets.size());
+  copy.color_sets.resize(mesh.color_sets.size());
+  copy.custom_attributes.resize(mesh.custom_attributes.size());
+  for (std::size_t i = 0; i < mesh.custom_attributes.size(); ++i) {
+    copy.custom_attributes[i].name = mesh.custom_attributes[i].name;
+    copy.custom_attributes[i].components = mesh.custom_attributes[i].components;
+    copy.custom_attributes[i].interpolates = mesh.custom_attributes[i].interpolates;
+  }
+  copy.morph_targets.resize(mesh.morph_targets.size());
 }
 
 }  // namespace
@@ -248,16 +262,27 @@ void remove_vertices_from(std::uint32_t vertex_count, Mesh& mesh) {
   mesh.weights.influences.resize(mesh.weights.first.back());
 }
 
+Mesh copy_with_room(const Mesh& mesh, const VertexRoom& room, std::size_t triangle_count) {
+  Mesh copy;
+  copy.name = mesh.name;
+  copy.skin = mesh.skin;
+  copy.first_morph_weight = mesh.first_morph_weight;
+  copy.submeshes = mesh.submeshes;
+  copy_attributes(mesh, copy);
+  for (std::size_t i = 0; i < mesh.morph_targets.size(); ++i)
+    copy.morph_targets[i].name = mesh.morph_targets[i].name;
+  for_each_array_pair(mesh, copy, [&](const auto& from, auto& to, std::size_t per_vertex) {
+    if (!from.empty()) assign_with_room(from, room.vertices * per_vertex, to);
+  });
+  assign_with_room(mesh.weights.first, room.vertices, copy.weights.first);
+  assign_with_room(mesh.weights.influences, room.influences, copy.weights.influences);
+  assign_with_room(mesh.triangles, triangle_count, copy.triangles);
+  assign_with_room(mesh.triangle_submesh, triangle_count, copy.triangle_submesh);
+  return copy;
+}
+
 void copy_vertices_from(std::uint32_t first_vertex, const Mesh& mesh, Mesh& tail) {
-  tail.uv_sets.resize(mesh.uv_sets.size());
-  tail.color_sets.resize(mesh.color_sets.size());
-  tail.custom_attributes.resize(mesh.custom_attributes.size());
-  for (std::size_t i = 0; i < mesh.custom_attributes.size(); ++i) {
-    tail.custom_attributes[i].name = mesh.custom_attributes[i].name;
-    tail.custom_attributes[i].components = mesh.custom_attributes[i].components;
-    tail.custom_attributes[i].interpolates = mesh.custom_attributes[i].interpolates;
-  }
-  tail.morph_targets.resize(mesh.morph_targets.size());
+  copy_attributes(mesh, tail);
   for_each_array_pair(mesh, tail, [&](const auto& from, auto& to, std::size_t per_vertex) {
     if (from.empty())
       to.clear();

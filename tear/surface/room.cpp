@@ -56,22 +56,32 @@ std::size_t fixed_rows(Rows rows, const TornCapacity& capacity, std::size_t mesh
 
 }  // namespace
 
+std::size_t entries_in_advance(const Column& column, std::size_t size, const TornCapacity& capacity,
+                               std::size_t mesh_count) {
+  if (capacity.is_fixed()) return column.per_row * fixed_rows(column.rows, capacity, mesh_count);
+  // Columns that hold the source too are long: without room the first tear would copy them.
+  if (size == 0 || column.rows == Rows::mesh_submeshes) return 0;
+  return column.per_row * growth(size / column.per_row, 0);
+}
+
+VertexRoom vertices_in_advance(const Mesh& mesh, const TornCapacity& capacity) {
+  const std::size_t count =
+      capacity.is_fixed() ? capacity.vertices : growth(mesh.vertex_count(), 0);
+  // A new vertex has the influences of two or three others, most of them the same.
+  const std::size_t of_source = mesh.weights.influences.size(),
+                    vertices = std::max(1u, mesh.vertex_count());
+  return {count, 3 * (of_source + vertices) * count / (2 * vertices)};
+}
+
 void Room::reserve(const TornCapacity& capacity) {
   is_fixed_ = capacity.is_fixed();
   const auto reserve_column = [&](const Column& column, auto&& values) {
     if constexpr (kIsMeshVertices<decltype(values)>) {
-      Mesh& mesh = values.mesh;
-      const std::size_t count = is_fixed_ ? capacity.vertices : growth(mesh.vertex_count(), 0);
-      // A new vertex has the influences of two or three others, most of them the same.
-      const std::size_t of_source = mesh.weights.influences.size(),
-                        vertices = std::max(1u, mesh.vertex_count());
-      reserve_vertices(count, 3 * (of_source + vertices) * count / (2 * vertices), mesh);
-    } else if (is_fixed_) {
+      const VertexRoom room = vertices_in_advance(values.mesh, capacity);
+      reserve_vertices(room.vertices, room.influences, values.mesh);
+    } else {
       values.reserve(values.size() +
-                     column.per_row * fixed_rows(column.rows, capacity, columns_.meshes.size()));
-    } else if (!values.empty() && column.rows != Rows::mesh_submeshes) {
-      // Columns that hold the source too are long: without room the first tear would copy them.
-      values.reserve(values.size() + column.per_row * growth(values.size() / column.per_row, 0));
+                     entries_in_advance(column, values.size(), capacity, columns_.meshes.size()));
     }
   };
   for_each_common_column(reserve_column, columns_);

@@ -9,6 +9,12 @@
 
 namespace sunder::tear {
 
+/// Entries beyond `size` for which a column has room before the first operation.
+[[nodiscard]] std::size_t entries_in_advance(const Column& column, std::size_t size,
+                                             const TornCapacity& capacity, std::size_t mesh_count);
+/// The same for the vertex arrays of a mesh and its influences.
+[[nodiscard]] VertexRoom vertices_in_advance(const Mesh& mesh, const TornCapacity& capacity);
+
 /// Reserves memory of the columns before a change begins, so that no change is left half done when
 /// memory runs out. Columns of a model of fixed capacity do not grow.
 ///

@@ -10,22 +10,28 @@ namespace {
 constexpr std::size_t kLeastScratch = std::size_t{1} << 19;
 constexpr std::size_t kScratchPerTriangle = 8;
 
-EditColumns columns_of(const Character& character, Surface surface) {
+EditColumns columns_of(const Character& character, Surface surface, const TornCapacity& capacity) {
+  const auto assign = [&](const Column& column, std::size_t count, std::vector<Index>& values) {
+    values.reserve(count + entries_in_advance(column, count, capacity, character.meshes.size()));
+    values.assign(count, kNone);
+  };
   EditColumns columns;
   columns.surface = std::move(surface);
   columns.meshes.resize(character.meshes.size());
-  columns.newest_change.assign(columns.surface.triangle_count(), kNone);
+  assign({Rows::triangles}, columns.surface.triangle_count(), columns.newest_change);
   for (std::size_t m = 0; m < columns.meshes.size(); ++m)
-    columns.meshes[m].newest_part.assign(character.meshes[m].triangle_count(), kNone);
+    assign({Rows::mesh_fillings}, character.meshes[m].triangle_count(),
+           columns.meshes[m].newest_part);
   return columns;
 }
 
 }  // namespace
 
-SurfaceEditor::SurfaceEditor(const Character& source, Character& character, Surface surface)
+SurfaceEditor::SurfaceEditor(const Character& source, Character& character, Surface surface,
+                             const TornCapacity& capacity)
     : source_(source),
       character_(character),
-      columns_(columns_of(character, std::move(surface))),
+      columns_(columns_of(character, std::move(surface), capacity)),
       room(all_columns()),
       fillings(source, character, columns_),
       births(source, character, columns_, fillings, room, scratch_),

@@ -30,8 +30,10 @@ class SurfaceEditor {
  public:
   SurfaceEditor(const Character& source, Character& character)
       : SurfaceEditor(source, character, build_surface(source)) {}
-  /// @param surface  of the source, as build_surface() makes it.
-  SurfaceEditor(const Character& source, Character& character, Surface surface);
+  /// @param surface   of the source, as build_surface() makes it.
+  /// @param capacity  for which reserve() is going to be called.
+  SurfaceEditor(const Character& source, Character& character, Surface surface,
+                const TornCapacity& capacity = {});
   SurfaceEditor(const SurfaceEditor&) = delete;
   SurfaceEditor& operator=(const SurfaceEditor&) = delete;
 

@@ -560,6 +560,32 @@ TEST(Follow, tears_of_extreme_sizes) {
   }
 }
 
+TEST(Settle, lists_only_points_whose_influences_changed) {
+  bool has_changed = false, has_left_out = false;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    Followed followed(test::make_bumpy_ball(1500), 0.3, seed);
+    const ModelPose pose = *bind_pose(followed.model.source());
+    ASSERT_NO_FATAL_FAILURE(followed.play(test::random_tear(followed.model, random, false)));
+    for (bool is_left = followed.model.undo_count() > 0; is_left;) {
+      const ParticleState before = state_of(followed.model, followed.set, pose);
+      is_left = followed.set.settle(followed.model, 40);
+      ASSERT_NO_FATAL_FAILURE(followed.expect_dirty(before.influences));
+      const ParticleState now = state_of(followed.model, followed.set, pose);
+      // A range may cover gaps, but begins and ends with a listed point.
+      for (const auto& [first, count] : followed.set.dirty_points())
+        for (const std::uint32_t end : {first, first + count - 1})
+          EXPECT_NE(now.influences[end], before.influences[end]);
+      has_changed |= now.influences != before.influences;
+      for (std::size_t point = 0; point < now.influences.size(); ++point)
+        has_left_out |= now.influences[point] == before.influences[point] &&
+                        now.memberships[point].size() != before.memberships[point].size();
+    }
+  }
+  EXPECT_TRUE(has_changed && has_left_out);
+}
+
 TEST(Settle, leaves_no_particle_in_two_pieces) {
   for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(test::stressed(100, 20)); ++seed) {
     SCOPED_TRACE(seed);

@@ -111,7 +111,13 @@ TEST(shared_particles, have_the_bits_of_particles_of_their_own) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     SCOPED_TRACE(seed);
     Random of_character(seed);
-    const Shared shared(test::random_character(of_character));
+    Character character = test::random_character(of_character);
+    if (seed % 2 == 0)  // an asset without gradients
+      for (Mesh& mesh : character.meshes) {
+        mesh.normals.clear();
+        mesh.tangents.clear();
+      }
+    const Shared shared(std::move(character));
     Instance own(shared.character, nullptr, shared.pose),
         first(shared.character, shared.asset, shared.pose),
         untouched(shared.character, shared.asset, shared.pose),

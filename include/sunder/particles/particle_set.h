@@ -157,7 +157,8 @@ class SUNDER_API ParticleSet {
   [[nodiscard]] std::span<const std::uint32_t> owners() const;
   /// Per point: gradients of its influences' weights along the surface, in the decomposition's
   /// pose; for normals, see VertexDisplacements. Empty if out of memory. Valid until the next call
-  /// that changes the set. O(points) in the first call, then O(points changed since).
+  /// that changes the set. O(points changed since the last call); O(points) in the first one,
+  /// unless the set shares an asset of a model with normals or tangents.
   [[nodiscard]] std::span<const ParticleGradients> gradients(const TornModel& model);
   /// Per vertex of a mesh: its point; kNone if no face uses the vertex.
   [[nodiscard]] std::span<const std::uint32_t> vertex_points(std::uint32_t mesh) const;
