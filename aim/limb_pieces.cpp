@@ -11,7 +11,7 @@ namespace {
 
 /// A piece is of a limb that moves at least so much of its area, and a limb is made of pieces that
 /// hold at least so much of what it moves.
-constexpr double kLeastOfPiece = 0.9, kLeastOfLimb = 0.9;
+constexpr double kLeastOfPiece = 0.9, kLeastHeld = 0.9;
 
 struct LimbPiece {
   Index face = kNone;  ///< The first one.
@@ -65,7 +65,7 @@ Result<LimbPieces> find_limb_pieces(const PosedSurface& surface, const LimbPlace
   if (!(moved > 0))
     return Status::failure(StatusCode::not_found, *bone,
                            "the bone '%.60s' and those below it move nothing", place.bone.c_str());
-  if (off < kLeastOfLimb * moved)
+  if (off < kLeastHeld * moved)
     return Status::failure(
         StatusCode::not_found, *bone, "'%.60s': %d %% of what the limb moves is joined to the rest",
         place.bone.c_str(), static_cast<int>(std::lround(100 * (1 - off / moved))));
