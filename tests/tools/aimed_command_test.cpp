@@ -271,6 +271,9 @@ TEST_F(AimedCommand, a_limb_of_blocks_is_taken_off_without_a_cut) {
   EXPECT_EQ(operations[0]["op"], "detach");
   EXPECT_EQ(tear_head("head@0.3,detach").exit_code, 0);
   EXPECT_EQ(read_json("headless.json")["operations"][0]["op"], "cut");
+  EXPECT_EQ(tear_head("head,detach,tilt=10").exit_code, 0);
+  EXPECT_EQ(read_json("headless.json")["operations"][0]["op"], "cut") << "a tilt asks for a cut";
+  EXPECT_THAT(tear_head("head,detach,cap_material=7").err, HasSubstr("material"));
   const CommandResult cut = tear_head("head");
   EXPECT_EQ(cut.exit_code, 2);
   EXPECT_THAT(cut.err, HasSubstr("--sever head,detach takes them off"));

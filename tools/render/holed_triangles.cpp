@@ -14,8 +14,9 @@ namespace {
 constexpr float kSolid = 0.9999f;
 /// Images with more pixels are counted by squares of several.
 constexpr double kMostCells = 1 << 20;
-/// Texture coordinates on the edge of a pixel are rounded by less than this share of it.
-constexpr double kRounding = 1e-3;
+/// Means of texture coordinates are rounded by less than this share of the largest of them: eight
+/// roundings of floats.
+constexpr double kRounding = 5e-7;
 
 /// Counts the pixels of an image that are not opaque, in cells of one or more pixels.
 class ClearPixels {
@@ -60,7 +61,9 @@ std::vector<ClearPixels::Range> shown_pixels(const std::array<float, 3>& coordin
   const auto [least, greatest] = std::ranges::minmax(coordinates);
   const ClearPixels::Range all = {0, count - 1};
   if (!(std::abs(least) < 1e6f && std::abs(greatest) < 1e6f)) return {all};
-  const double border = is_pixelated ? -kRounding : 0.5 + kRounding;
+  const double rounding = kRounding * count * std::max({1.0f, std::abs(least), std::abs(greatest)});
+  // A pixel is not shown if the triangle only touches it.
+  const double border = is_pixelated ? -rounding : 0.5 + rounding;
   const auto first = static_cast<std::int64_t>(std::floor(1.0 * least * count - border)),
              last = std::max(
                  first, static_cast<std::int64_t>(std::floor(1.0 * greatest * count + border)));

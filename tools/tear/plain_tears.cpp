@@ -103,11 +103,11 @@ PlainTears without_a_cut(const PoseSpec& pose, const LimbPieces& pieces) {
   return tears;
 }
 
-/// The pieces that the limb of a sever is made of; empty if it is joined to the rest, and for other
-/// operations.
+/// The pieces that the limb of a sever is made of; empty if it is joined to the rest, for a sever
+/// whose fields describe a cut, and for other operations.
 std::optional<LimbPieces> own_pieces(const AimedOperation& operation, const TornModel& model) {
   const auto* const sever = std::get_if<SeverOperation>(&operation);
-  if (sever == nullptr) return {};
+  if (sever == nullptr || sever->tilt != 0 || sever->cap_material != kNone) return {};
   Result<LimbPieces> pieces = limb_pieces(model, *sever);
   return pieces ? std::optional(std::move(*pieces)) : std::nullopt;
 }
@@ -136,10 +136,12 @@ Result<PlainTears> plain_tears(const WantedOperation& wanted, const TearRun& run
   if (wanted.option) aimed = seen(*aimed, run, tears.notes);
   if (!aimed) return aimed.error();
   if (wanted.option && !wanted.option->has_share) {
-    const std::optional<LimbPieces> pieces = own_pieces(*aimed, run.model);
-    if (detaches && pieces && pieces->are_rigid_parts)
+    std::optional<LimbPieces> pieces;
+    if (detaches) pieces = own_pieces(*aimed, run.model);
+    if (pieces && pieces->are_rigid_parts)
       return without_a_cut(std::get<SeverOperation>(*aimed).pose, *pieces);
     Result<AimedOperation> moved = placed(*aimed, run, tears.notes);
+    if (!moved && !detaches) pieces = own_pieces(*aimed, run.model);
     if (!moved && pieces) {
       const auto& sever = std::get<SeverOperation>(*aimed);
       if (detaches) return without_a_cut(sever.pose, *pieces);
