@@ -137,6 +137,10 @@ class Validation {
   void bring_to_scale();
   void match();
   SurfaceMatches match_to_source(const Skinned& target, const MatchLimits& limits) const;
+  /// Whether the target's vertices are those of the source after the operations.
+  [[nodiscard]] bool has_played_vertices() const {
+    return replayed_ && has_vertices_of(*target_character_, replayed_->character());
+  }
   void match_in_bind_pose_of_source(const MatchLimits& limits, std::size_t unmatched);
   void check_stored_weights(const RowReader& reader);
   void check_weights(const RowReader& reader);
@@ -195,7 +199,7 @@ void Validation::match_in_bind_pose_of_source(const MatchLimits& limits, std::si
 
 void Validation::match() {
   const MatchLimits limits{kMatchDistance * source_->surface.diagonal, kMatchCosine, false};
-  if (replayed_ && has_vertices_of(*target_character_, replayed_->character())) {
+  if (has_played_vertices()) {
     matches_ = matches_from_births(*replayed_);
   } else {
     matches_ = match_to_source(*target_, limits);
@@ -307,7 +311,8 @@ ValidationReport Validation::run() {
                          report_.diagonal, *findings_);
   begin("matching");
   match();
-  const RowReader reader(*source_, *target_, matches_, bones_);
+  const RowReader reader(*source_, *target_, matches_, bones_,
+                         has_played_vertices() ? &replayed_->character() : nullptr);
   begin("weights");
   check_stored_weights(reader);
   check_weights(reader);

@@ -5,6 +5,9 @@
 #include <sunder/tear/torn_model.h>
 #include <sunder/validation/validation.h>
 
+#include <algorithm>
+
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "support/machine/temporary_folder.h"
@@ -14,6 +17,10 @@
 
 namespace sunder::test {
 namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::IsEmpty;
 
 void expect_nothing_found(const ValidationReport& report, const std::string& what) {
   for (const Finding& finding : report.findings)
@@ -130,6 +137,74 @@ TEST(Untouched, attributes_of_walls_caps_and_moved_vertices_give_no_alarm) {
           }
       }
     }
+}
+
+/// A tube whose last bone moves its lower half a little: a fault of the source, which the walls and
+/// caps of operations take over.
+std::shared_ptr<const Character> bleeding_tube() {
+  Character tube = make_tube(60, 16, 6);
+  Mesh& mesh = tube.meshes[0];
+  const SkinWeights old = mesh.weights;
+  const auto last = static_cast<Index>(tube.skins[mesh.skin].bones.size() - 1);
+  mesh.weights = {};
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    std::vector<Influence> row(old.of(v).begin(), old.of(v).end());
+    if (mesh.positions[v].y() < 1.5f) {
+      for (Influence& influence : row) influence.weight *= 0.8f;
+      row.push_back({last, 0.2f});
+      std::ranges::stable_sort(row, std::greater<>(), &Influence::weight);
+    }
+    mesh.weights.append(row);
+  }
+  return std::make_shared<const Character>(std::move(tube));
+}
+
+std::vector<std::string> warnings_of(const std::shared_ptr<const Character>& source,
+                                     const Character& target,
+                                     const std::vector<Operation>& operations) {
+  ValidationOptions options;
+  options.operations = operations;
+  const auto report = validate_skin(source, std::make_shared<const Character>(target), options);
+  EXPECT_TRUE(report) << report.error().text();
+  std::vector<std::string> warnings;
+  if (report)
+    for (const Finding& finding : report->findings)
+      if (finding.severity > Severity::note)
+        warnings.push_back(std::string(finding.code) + ": " + finding.text);
+  return warnings;
+}
+
+/// Walls and caps have no place on the source, but their weights are those that the operations of
+/// the log give them.
+TEST(Untouched, faults_of_the_source_are_not_new_in_walls_and_caps) {
+  const auto source = bleeding_tube();
+  const ModelPose pose = *rest_pose(*source);
+  TearOperation tear;
+  tear.pose = pose;
+  for (const double y : {0.8, 1.0, 1.2}) tear.stroke.push_back({Vec3d(0, y, 2), Vec3d(0, y, 0.1)});
+  tear.options.wall_depth = 0.1;
+  CutOperation cut;
+  cut.pose = pose;
+  cut.cut.point = Vec3d(0, 0.5, 0);
+  cut.cut.normal = Vec3d(0, 1, 0);
+  cut.cut.caps = true;
+  const std::vector<Operation> operations = {tear, cut};
+  auto torn = TornModel::create(source);
+  ASSERT_TRUE(torn);
+  for (const Operation& operation : operations) ASSERT_TRUE(apply_operation(*torn, operation));
+  EXPECT_THAT(warnings_of(source, torn->character(), operations), IsEmpty());
+
+  Character changed = torn->character();
+  SkinWeights& weights = changed.meshes[0].weights;
+  Index in_wall = source->meshes[0].vertex_count();
+  const auto& places = changed.meshes[0].positions;
+  while (torn->birth(0, in_wall).triangle < source->meshes[0].triangle_count() ||
+         std::ranges::count(places, places[in_wall]) > 1)
+    ++in_wall;
+  for (Index i = weights.first[in_wall]; i < weights.first[in_wall + 1]; ++i)
+    weights.influences[i].weight =
+        0.9f * weights.influences[i].weight + (weights.influences[i].slot == 5 ? 0.1f : 0.0f);
+  EXPECT_THAT(warnings_of(source, changed, operations), Contains(HasSubstr("SUNDER_W_BLEED")));
 }
 
 }  // namespace

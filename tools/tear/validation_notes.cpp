@@ -3,6 +3,19 @@
 #include "tools/messages/printed.h"
 
 namespace sunder::tools {
+namespace {
+
+/// Whether there are vertices that stand nowhere on the source's surface.
+bool has_walls(const TornModel& model) {
+  for (Index mesh = 0; mesh < model.character().meshes.size(); ++mesh) {
+    const Mesh& source = model.source().meshes[mesh];
+    for (Index v = source.vertex_count(); v < model.character().meshes[mesh].vertex_count(); ++v)
+      if (model.birth(mesh, v).triangle >= source.triangle_count()) return true;
+  }
+  return false;
+}
+
+}  // namespace
 
 std::vector<std::string> validation_notes(const TearRun& run) {
   const TearRequest& request = run.request;
@@ -13,6 +26,10 @@ std::vector<std::string> validation_notes(const TearRun& run) {
   if (request.open != OpenLips::no)
     add("--open moves lips apart and adds walls",
         "compares the surface with the closed source, and may warn of its shape and weights");
+  else if (has_walls(run.model))
+    add("walls and caps stand nowhere on the source",
+        "takes them for a changed surface, and may warn of its shape and weights, if its --ops "
+        "names no log");
   if (limits_influences(request.save) && run.pruning.vertices_pruned > 0)
     add(printed("--influences %s takes influences from %zu vertices, which move by up to %.3g m "
                 "for it",

@@ -44,10 +44,8 @@ Places take_inherited_weights(const RowReader& reader, Places& of_target) {
   WeightRow actual, expected;
   Places inherited;
   std::erase_if(of_target, [&](const FindingPlace& place) {
-    const SurfaceMatch& match = reader.match(place.mesh, place.vertex);
-    if (!match.is_accepted) return false;
+    if (!reader.expected_at(place.mesh, place.vertex, expected)) return false;
     reader.actual(place.mesh, place.vertex, actual);
-    reader.expected(match, match.barycentric, expected);
     double difference = distance(actual, expected);
     if (place.bone != kNone) {
       const Index bone = reader.bones().source_of_target[place.bone];

@@ -14,7 +14,8 @@ namespace sunder::validation {
                                     const Places& of_source);
 
 /// The same for faults of weights, without a search on the source: it has the same fault where the
-/// matched place has the same weight of the bone, or the same weights.
+/// matched place has the same weight of the bone, or the same weights; so has a vertex of a wall or
+/// cap with the weights that the operations give it.
 [[nodiscard]] Places take_inherited_weights(const RowReader& reader, Places& of_target);
 
 /// Runs a search on the target and, if it finds something, on the source, and adds what is new.

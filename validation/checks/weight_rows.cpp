@@ -34,8 +34,8 @@ std::size_t corner_of(const SurfaceMatch& match) {
 }
 
 RowReader::RowReader(const Skinned& source, const Skinned& target, const SurfaceMatches& matches,
-                     const BoneMatch& bones)
-    : source_(source), target_(target), matches_(matches), bones_(bones) {
+                     const BoneMatch& bones, const Character* replayed)
+    : source_(source), target_(target), matches_(matches), bones_(bones), replayed_(replayed) {
   for (const Skin& of_target : target.character.skins) {
     auto& row = same_slots_.emplace_back();
     for (const Skin& of_source : source.character.skins) {
@@ -67,6 +67,21 @@ void RowReader::expected(const SurfaceMatch& match, const std::array<double, 3>&
       add(row, source_.bone(match.mesh, influence.slot),
           barycentric[k] * static_cast<double>(influence.weight));
   }
+}
+
+bool RowReader::expected_at(Index mesh, Index vertex, WeightRow& row) const {
+  const SurfaceMatch& of = match(mesh, vertex);
+  if (of.is_accepted) {
+    expected(of, of.barycentric, row);
+    return true;
+  }
+  if (replayed_ == nullptr) return false;
+  row.clear();
+  const Mesh& played = replayed_->meshes[mesh];
+  for (const Influence& influence : played.weights.of(vertex))
+    add(row, replayed_->skins[played.skin].bones[influence.slot],
+        static_cast<double>(influence.weight));
+  return true;
 }
 
 bool RowReader::is_same(Index mesh, Index vertex) const {

@@ -17,8 +17,10 @@ namespace sunder::validation {
 class RowReader {
  public:
   /// All outlive the reader.
+  /// @param replayed  the source after the operations that made the target, if its vertices are
+  ///                  those of the target; null otherwise.
   RowReader(const Skinned& source, const Skinned& target, const SurfaceMatches& matches,
-            const BoneMatch& bones);
+            const BoneMatch& bones, const Character* replayed = nullptr);
 
   [[nodiscard]] const SurfaceMatch& match(Index mesh, Index vertex) const {
     return matches_.of(mesh, vertex);
@@ -28,6 +30,10 @@ class RowReader {
   /// Those of the matched place: interpolated over the triangle with these coordinates.
   void expected(const SurfaceMatch& match, const std::array<double, 3>& barycentric,
                 WeightRow& row) const;
+  /// The weights that a vertex of the target should have: those of its match or, as a vertex of a
+  /// wall or cap has none, those that the operations give it.
+  /// @return false if neither is known.
+  [[nodiscard]] bool expected_at(Index mesh, Index vertex, WeightRow& row) const;
   /// Whether a vertex has the very weights of the corner it was matched to. No rows are made.
   [[nodiscard]] bool is_same(Index mesh, Index vertex) const;
   /// A bone of the target for a number in a row; kNone: it has none.
@@ -44,6 +50,7 @@ class RowReader {
   const Skinned &source_, &target_;
   const SurfaceMatches& matches_;
   const BoneMatch& bones_;
+  const Character* replayed_;
   /// Per skin of the target and skin of the source: all slots mean the same bones.
   std::vector<std::vector<bool>> same_slots_;
 };
