@@ -12,6 +12,7 @@
 #include "io/gltf_patch/clip_patch.h"
 #include "io/gltf_patch/leave_out_unused.h"
 #include "io/gltf_patch/repair_document.h"
+#include "io/gltf_write/appended_materials.h"
 #include "io/gltf_write/lists.h"
 #include "io/gltf_write/mesh_writer.h"
 #include "io/gltf_write/rig_writer.h"
@@ -181,7 +182,7 @@ class Patch {
   }
 
   void apply(const std::vector<std::uint32_t>& meshes) {
-    append_materials();
+    append_materials(character_, options_, draft_);
     nodes_of_mesh_ = uses_of_meshes(draft_.json);
     std::map<std::uint32_t, std::vector<std::uint32_t>> meshes_of_node;
     for (const std::uint32_t mesh : meshes)
@@ -193,28 +194,6 @@ class Patch {
   }
 
  private:
-  /// The materials of the options, if a submesh names one of them.
-  void append_materials() {
-    const std::size_t of_source = count_of(draft_.json, "materials");
-    const auto is_appended = [&](const Submesh& submesh) {
-      return submesh.material != kNone && submesh.material >= of_source;
-    };
-    const bool is_any_named = std::ranges::any_of(character_.meshes, [&](const Mesh& mesh) {
-      return std::ranges::any_of(mesh.submeshes, is_appended);
-    });
-    if (!is_any_named) return;
-    for (const AppendedMaterial& of : options_.materials) {
-      Json material = {{"pbrMetallicRoughness",
-                        {{"baseColorFactor", numbers_of({of.base_colour.data(), 4})},
-                         {"metallicFactor", static_cast<double>(of.metallic)},
-                         {"roughnessFactor", static_cast<double>(of.roughness)}}}};
-      if (!of.name.empty()) material["name"] = of.name;
-      if (of.double_sided) material["doubleSided"] = true;
-      if (of.base_colour.w() < 1) material["alphaMode"] = "BLEND";
-      append(draft_.json, "materials", std::move(material));
-    }
-  }
-
   void correct_skins() {
     for (const SourceDocument::RepairedSkin& repaired : source_.repaired_skins)
       draft_.json["skins"][repaired.gltf_skin]["inverseBindMatrices"] =

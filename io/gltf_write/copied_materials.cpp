@@ -30,7 +30,7 @@ Json named(const Json& document, const char* list, const std::set<std::string>& 
 
 }  // namespace
 
-std::uint32_t copy_materials(const SourceDocument& source, GlbDraft& draft) {
+void copy_materials(const SourceDocument& source, GlbDraft& draft) {
   GlbDraft from(source);
   from.embed_images();
   std::set<std::string> extensions;
@@ -51,9 +51,6 @@ std::uint32_t copy_materials(const SourceDocument& source, GlbDraft& draft) {
   for (const char* const list : {"extensionsUsed", "extensionsRequired"})
     if (Json names = named(from.json, list, extensions); !names.empty())
       draft.json[list] = std::move(names);
-  return draft.json.contains("materials")
-             ? static_cast<std::uint32_t>(draft.json["materials"].size())
-             : 0;
 }
 
 }  // namespace sunder::gltf

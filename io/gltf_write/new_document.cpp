@@ -6,8 +6,10 @@
 #include <string>
 #include <utility>
 
+#include "io/gltf/cursor.h"
 #include "io/gltf/glb.h"
 #include "io/gltf/refusal.h"
+#include "io/gltf_write/appended_materials.h"
 #include "io/gltf_write/clip_writer.h"
 #include "io/gltf_write/copied_materials.h"
 #include "io/gltf_write/lists.h"
@@ -45,7 +47,11 @@ class NewDocument {
                    {"scene", 0},
                    {"scenes", Json::array({Json::object()})}};
     if (!character_.name.empty()) draft_.json["scenes"][0]["name"] = character_.name;
-    if (copied_ != nullptr) material_count_ = copy_materials(*copied_, draft_);
+    if (copied_ != nullptr) {
+      copy_materials(*copied_, draft_);
+      append_materials(character_, options_, draft_);
+      material_count_ = static_cast<Index>(count_of(draft_.json, "materials"));
+    }
     if (materials_ != nullptr) add_materials();
     add_bones();
     for (Index mesh = 0; mesh < character_.meshes.size(); ++mesh) add_mesh(mesh);
@@ -298,7 +304,7 @@ void check_character(const Character& character) {
 std::vector<std::byte> new_document(const Character& character, const SaveOptions& options,
                                     const SourceDocument* materials) {
   check_options(options, character.meshes.size());
-  if (!options.materials.empty())
+  if (!options.materials.empty() && materials == nullptr)
     refuse(StatusCode::invalid_argument, kNone,
            "save_glb: materials are appended to those of a source document; this has none");
   check_character(character);

@@ -219,10 +219,37 @@ TEST_F(OpenCommand, walls_are_of_a_flesh_that_can_be_chosen) {
     EXPECT_EQ(result.exit_code, 2) << wrong;
     EXPECT_THAT(result.err, HasSubstr("--flesh")) << wrong;
   }
-  EXPECT_EQ(run_sunder({"tear", model(), "--ops", log, "-o", path("x.glb"), "--flesh", "source"})
-                .exit_code,
-            2)
-      << "needs --open";
+}
+
+constexpr const char* kCutOff = R"({"sunder_operations": 1, "operations": [
+  {"op": "cut", "plane": {"point": [0, 1.2, 0], "normal": [0, 1, 0]}, "caps": true},
+  {"op": "detach", "piece": {"near": [0, 3, 0]}}]})";
+
+/// As pictures show them: without --open, in the model and in its pieces.
+TEST_F(OpenCommand, caps_are_of_flesh_in_the_model_and_its_pieces) {
+  const std::string log = write("cut.json", kCutOff);
+  const auto names_in = [&](const char* file) {
+    std::vector<std::string> names;
+    for (const json& material : materials_of(file)) names.push_back(material.value("name", ""));
+    return names;
+  };
+  (void)torn(model(), log, "torn.glb", {"--pieces", path("piece")});
+  for (const char* const file : {"torn.glb", "piece1.glb"}) {
+    expect_valid(file);
+    EXPECT_EQ(names_in(file).back(), "Wound") << file;
+  }
+  (void)torn(model(), log, "torn.glb", {"--pieces", path("piece"), "--flesh", "source"});
+  for (const char* const file : {"torn.glb", "piece1.glb"})
+    EXPECT_EQ(std::ranges::count(names_in(file), "Wound"), 0) << file;
+}
+
+TEST_F(OpenCommand, a_piece_that_would_overwrite_the_model_is_refused_before_anything_is_written) {
+  const CommandResult result =
+      run_sunder({"tear", model(), "--ops", write("cut.json", kCutOff), "-o", path("top1.glb"),
+                  "--pieces", path("top"), "--force"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("--pieces"));
+  EXPECT_FALSE(exists("top1.glb"));
 }
 
 /// A pot does not bleed, nor does a cactus of cloth; a material that an operation names stays.

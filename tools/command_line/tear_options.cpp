@@ -153,11 +153,11 @@ void add_open(CLI::App& verb, TearRequest& request) {
             if (!flesh) throw CLI::ValidationError("--flesh", std::string(flesh.error().text()));
             request.flesh = *flesh;
           },
-          "What shows between gaping lips: a colour (#8a2b22), roughness=SHARE and name=TEXT, "
-          "separated by commas; source: the material of the lips; none: nothing")
+          "What caps, walls and the ground between gaping lips are made of: a colour (#8a2b22), "
+          "roughness=SHARE and name=TEXT, separated by commas; source: the material of the surface "
+          "beside; none: as that, and no ground between lips")
       ->type_name("FLESH")
-      ->default_str("red flesh; the material of the lips on cloth, metal and things")
-      ->needs(flag);
+      ->default_str("red flesh; the material of the surface beside on cloth, metal and things");
   verb.parse_complete_callback([&verb, form, &request] {
     if (verb.count("--open") > 0)
       request.open = *form == "baked" ? OpenLips::baked : OpenLips::morph;

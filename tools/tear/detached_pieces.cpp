@@ -43,20 +43,23 @@ void DetachedPieces::keep(const Operation& operation, Step piece, bool is_record
   }
 }
 
+std::vector<std::string> DetachedPieces::files(const std::string& prefix) const {
+  std::vector<std::string> files;
+  for (const Step& step : done_)
+    if (step) files.push_back(prefix + std::to_string(files.size() + 1) + ".glb");
+  return files;
+}
+
 ExitCode DetachedPieces::write(const std::string& prefix, const LoadedCharacter& loaded,
-                               const SaveOptions& save, const std::vector<NamedFile>& inputs,
+                               const SaveOptions& save, const FinishPiece& finish,
                                std::vector<std::string>& written) const {
   SaveOptions options = save;
   options.weights_of_mesh.clear();  // of the meshes of the model
+  const std::vector<std::string> names = files(prefix);
   for (const Step& step : done_) {
     if (!step) continue;
-    const std::string file = prefix + std::to_string(written.size() + 1) + ".glb";
-    if (const std::string fault = overwriting(inputs, {{"--pieces", file}}, "; --force allows it");
-        !fault.empty()) {
-      print_error("sunder: " + fault);
-      return ExitCode::usage;
-    }
-    const Status status = save_with_materials(file, *step->character, *loaded.source, options);
+    const std::string& file = names[written.size()];
+    const Status status = save_with_materials(file, *finish(*step), *loaded.source, options);
     if (!status) return complain(file, status, ExitCode::internal_error);
     written.push_back(file);
   }

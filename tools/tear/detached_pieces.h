@@ -3,14 +3,17 @@
 #include <sunder/io/character_file.h>
 #include <sunder/tear/detached_piece.h>
 
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "tools/messages/exit_code.h"
-#include "tools/messages/overwriting.h"
 
 namespace sunder::tools {
+
+using FinishPiece = std::function<std::shared_ptr<const Character>(const DetachedPiece&)>;
 
 /// Keeps the pieces that a log detaches, for --pieces. Undo and redo of the log count.
 class DetachedPieces {
@@ -20,11 +23,15 @@ class DetachedPieces {
   /// Applies an operation and keeps the piece that it detaches.
   Result<TearReport> apply(const Operation& operation, TornModel& model);
 
-  /// Writes the pieces of all detachments that are done, in order: PREFIX1.glb, PREFIX2.glb ….
-  /// @param inputs  files that must not be overwritten. @param written  the names are appended.
+  /// The files of all pieces that are detached, in order: PREFIX1.glb, PREFIX2.glb ….
+  [[nodiscard]] std::vector<std::string> files(const std::string& prefix) const;
+
+  /// Writes them.
+  /// @param finish   makes the character that is written of a piece.
+  /// @param written  the names of what was written.
   /// @return ok, or the exit code of the failure, which was reported.
   [[nodiscard]] ExitCode write(const std::string& prefix, const LoadedCharacter& loaded,
-                               const SaveOptions& save, const std::vector<NamedFile>& inputs,
+                               const SaveOptions& save, const FinishPiece& finish,
                                std::vector<std::string>& written) const;
 
  private:

@@ -1,6 +1,5 @@
 #include "tools/tear/open_lips_of_run.h"
 
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -8,11 +7,9 @@
 #include "io/internal/mesh_nodes.h"
 #include "tools/messages/printed.h"
 #include "tools/model/history.h"
-#include "tools/model/named_material.h"
-#include "tools/model/robot_joints.h"
-#include "tools/model/surface_kinds.h"
 #include "tools/open/opened_character.h"
 #include "tools/open/walled_character.h"
+#include "tools/tear/flesh_materials.h"
 #include "tools/value_of.h"
 
 namespace sunder::tools {
@@ -38,46 +35,6 @@ std::vector<ClipMoment> moments_of(const TearRun& run) {
   return moments;
 }
 
-/// Which parts of wounds are flesh.
-class FleshMaterials {
- public:
-  /// @return the failures of SurfaceKinds::create().
-  static Result<FleshMaterials> create(const TearRun& run) {
-    Result<SurfaceKinds> kinds = SurfaceKinds::create(run.model.source(), run.loaded.source.get());
-    if (!kinds) return kinds.error();
-    FleshMaterials materials(run, std::move(*kinds));
-    for (const Operation& operation : value_of(run.model.history()))
-      materials.named_.insert(material_field(operation).material);
-    return materials;
-  }
-
-  /// The material of a wall beside one of the source's. Links of a robot have no flesh.
-  [[nodiscard]] std::uint32_t beside(std::uint32_t mesh, std::uint32_t material) const {
-    const bool is_flesh = run_.request.flesh.use == FleshOption::Use::flesh &&
-                          !is_urdf(run_.request.model) &&
-                          kinds_.of(mesh, material) != SurfaceKind::dead;
-    return is_flesh ? kinds_.material_count() : material;
-  }
-
-  /// Walls and caps that operations made, unless they named their material.
-  void give_to_fillings(Character& character) const {
-    for (std::uint32_t m = 0; m < character.meshes.size(); ++m) {
-      std::vector<Submesh>& submeshes = character.meshes[m].submeshes;
-      for (std::size_t s = run_.model.source().meshes[m].submeshes.size(); s < submeshes.size();
-           ++s)
-        if (submeshes[s].material == kNone || !named_.contains(submeshes[s].material))
-          submeshes[s].material = beside(m, submeshes[s].material);
-    }
-  }
-
- private:
-  FleshMaterials(const TearRun& run, SurfaceKinds kinds) : run_(run), kinds_(std::move(kinds)) {}
-
-  const TearRun& run_;
-  SurfaceKinds kinds_;
-  std::set<std::uint32_t> named_;
-};
-
 }  // namespace
 
 ExitCode open_lips_of_run(TearRun& run) {
@@ -99,30 +56,29 @@ ExitCode open_lips_of_run(TearRun& run) {
 
 Result<WrittenModel> written_model(const TearRun& run) {
   const Character& closed = run.certified ? run.certified->character : run.model.character();
-  if (!run.opening || !(run.opening->widest_gap > 0))
+  const bool is_open = run.opening && run.opening->widest_gap > 0;
+  if (!is_open && !has_fillings(run.model))
     return WrittenModel{std::shared_ptr<const Character>(std::shared_ptr<void>(), &closed), {}};
-  Opening opening = *run.opening;
+  const Result<FleshMaterials> flesh = FleshMaterials::create(run);
+  if (!flesh) return flesh.error();
   Character walled = closed;
-  WrittenModel written;
-  if (run.request.flesh.use != FleshOption::Use::none) {
-    const Result<FleshMaterials> flesh = FleshMaterials::create(run);
-    if (!flesh) return flesh.error();
+  flesh->give_to_fillings(walled);
+  if (is_open) {
+    Opening opening = *run.opening;
     const WallMaterial wall_material = [&](std::uint32_t mesh, std::uint32_t submesh) {
       return flesh->beside(mesh, closed.meshes[mesh].submeshes[submesh].material);
     };
-    flesh->give_to_fillings(walled);
     if (const Status status = add_wound_walls(wall_material, opening, walled); !status)
       return status;
-    written.materials = {run.request.flesh.material};
+    Result<Character> open =
+        run.request.open == OpenLips::baked
+            ? with_open_positions(std::move(walled), opening)
+            : with_open_target(std::move(walled), opening, nodes_of_meshes(*run.loaded.source),
+                               moments_of(run));
+    if (!open) return open.error();
+    walled = std::move(*open);
   }
-  Result<Character> open =
-      run.request.open == OpenLips::baked
-          ? with_open_positions(std::move(walled), opening)
-          : with_open_target(std::move(walled), opening, nodes_of_meshes(*run.loaded.source),
-                             moments_of(run));
-  if (!open) return open.error();
-  written.character = std::make_shared<const Character>(std::move(*open));
-  return written;
+  return WrittenModel{std::make_shared<const Character>(std::move(walled)), flesh->appended()};
 }
 
 Json open_lips_json(const TearRun& run) {

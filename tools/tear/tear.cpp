@@ -146,6 +146,7 @@ Status count_result(TearRun& run) {
 ExitCode write_all(TearRun& run, const std::string& report, const std::string& log) {
   const Budget::Writing writing(run.budget);
   const auto begin = Clock::now();
+  if (const ExitCode code = check_piece_files(run); code != ExitCode::ok) return code;
   if (const ExitCode code = write_files(run, report, log); code != ExitCode::ok) return code;
   if (const ExitCode code = write_pieces(run); code != ExitCode::ok) return code;
   run.times.saving = seconds_since(begin);

@@ -6,6 +6,7 @@
 #include "tools/messages/output_file.h"
 #include "tools/messages/overwriting.h"
 #include "tools/messages/text_file.h"
+#include "tools/tear/flesh_materials.h"
 #include "tools/tear/open_lips_of_run.h"
 
 namespace sunder::tools {
@@ -38,6 +39,24 @@ std::vector<NamedFile> inputs_of(const TearRequest& request) {
   return inputs;
 }
 
+std::vector<NamedFile> outputs_of(const TearRequest& request) {
+  std::vector<NamedFile> outputs;
+  if (request.output) outputs.push_back({"--output", *request.output});
+  if (request.report && !reports_to_stdout(request))
+    outputs.push_back({"--report", *request.report});
+  if (request.log) outputs.push_back({"--save-log", *request.log});
+  if (request.picture) outputs.push_back({"--picture", *request.picture});
+  if (request.wound_mask) outputs.push_back({"--wound-mask", *request.wound_mask});
+  return outputs;
+}
+
+ExitCode check_overwriting(const TearRequest& request, const std::vector<NamedFile>& outputs) {
+  const std::string fault = overwriting(inputs_of(request), outputs, "; --force allows it");
+  if (fault.empty()) return ExitCode::ok;
+  print_error("sunder: " + fault);
+  return ExitCode::usage;
+}
+
 }  // namespace
 
 bool reports_to_stdout(const TearRequest& request) {
@@ -45,31 +64,33 @@ bool reports_to_stdout(const TearRequest& request) {
 }
 
 ExitCode check_outputs(const TearRequest& request) {
-  std::vector<NamedFile> inputs = inputs_of(request), outputs;
-  if (request.output) outputs.push_back({"--output", *request.output});
-  if (request.report && !reports_to_stdout(request))
-    outputs.push_back({"--report", *request.report});
-  if (request.log) outputs.push_back({"--save-log", *request.log});
-  if (request.picture) outputs.push_back({"--picture", *request.picture});
-  if (request.wound_mask) outputs.push_back({"--wound-mask", *request.wound_mask});
-  if (const std::string fault = overwriting(inputs, outputs, "; --force allows it");
-      !fault.empty()) {
-    print_error("sunder: " + fault);
-    return ExitCode::usage;
-  }
+  const std::vector<NamedFile> outputs = outputs_of(request);
+  if (const ExitCode code = check_overwriting(request, outputs); code != ExitCode::ok) return code;
   const std::string fault = request.dry_run ? std::string() : impossible_output(outputs);
   if (fault.empty()) return ExitCode::ok;
   print_error("sunder: " + fault);
   return ExitCode::unreadable_input;
 }
 
+ExitCode check_piece_files(const TearRun& run) {
+  const TearRequest& request = run.request;
+  if (request.dry_run || !run.pieces) return ExitCode::ok;
+  std::vector<NamedFile> outputs = outputs_of(request);
+  for (const std::string& file : run.pieces->files(*request.pieces))
+    outputs.push_back({"--pieces", file});
+  return check_overwriting(request, outputs);
+}
+
 ExitCode write_pieces(TearRun& run) {
   const TearRequest& request = run.request;
   if (request.dry_run || !run.pieces) return ExitCode::ok;
-  std::vector<NamedFile> kept = inputs_of(request);
-  if (request.output) kept.push_back({"--output", *request.output});
+  const Result<FleshMaterials> flesh = FleshMaterials::create(run);
+  if (!flesh) return complain(*request.pieces, flesh.error(), ExitCode::internal_error);
+  SaveOptions save = request.save;
+  save.materials = flesh->appended();
+  const auto with_flesh = [&](const DetachedPiece& piece) { return flesh->with_flesh(piece); };
   const ExitCode code =
-      run.pieces->write(*request.pieces, run.loaded, request.save, kept, run.piece_files);
+      run.pieces->write(*request.pieces, run.loaded, save, with_flesh, run.piece_files);
   if (code == ExitCode::ok && run.piece_files.empty())
     run.messages.warn(
         "--pieces: no piece was written; --sever takes off what it severs, and so does {\"op\": "

@@ -17,6 +17,10 @@ namespace sunder::tools {
 [[nodiscard]] ExitCode write_files(const TearRun& run, const std::string& report,
                                    const std::string& log);
 
+/// Refuses files of --pieces that are inputs or other outputs, before anything is written.
+/// @return ok, or the exit code of the failure, which was reported.
+[[nodiscard]] ExitCode check_piece_files(const TearRun& run);
+
 /// Writes the detached pieces, with --pieces. If one cannot be written, those before it stay.
 /// @return ok, or the exit code of the failure, which was reported.
 [[nodiscard]] ExitCode write_pieces(TearRun& run);

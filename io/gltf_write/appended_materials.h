@@ -1,0 +1,13 @@
+#pragma once
+
+#include <sunder/core/character.h>
+#include <sunder/io/character_bytes.h>
+
+#include "io/gltf/glb.h"
+
+namespace sunder::gltf {
+
+/// Appends SaveOptions::materials to those of a draft, if a submesh of the character names one.
+void append_materials(const Character& character, const SaveOptions& options, GlbDraft& draft);
+
+}  // namespace sunder::gltf
