@@ -91,12 +91,18 @@ TriangleTree::Holes Shading::holes() const {
   return holes;
 }
 
-bool Shading::lets_pass(Index index, const Vec3f& shares, TriangleTree::Ray ray) const {
-  const RenderTriangle& triangle = scene_.triangles[index];
+float Shading::alpha_at(const RenderTriangle& triangle, const Vec3f& shares) const {
   const RenderMaterial& material = scene_.materials[triangle.material];
   float alpha = material.factor.w() * mean(shares, triangle.tints).w();
   if (material.image != nullptr)
     alpha *= sampled(*material.image, material, mean(shares, triangle.uvs)).w();
+  return alpha;
+}
+
+bool Shading::lets_pass(Index index, const Vec3f& shares, TriangleTree::Ray ray) const {
+  const RenderTriangle& triangle = scene_.triangles[index];
+  const RenderMaterial& material = scene_.materials[triangle.material];
+  const float alpha = alpha_at(triangle, shares);
   if (material.alpha == RenderMaterial::Alpha::cut) return alpha < material.cutoff;
   // The shadow of glass would be too dark; a picture needs none.
   return ray == TriangleTree::Ray::shadow ? alpha < 0.5f : alpha <= 0.0f;
@@ -166,7 +172,7 @@ bool Shading::look_alike(const std::array<TriangleTree::Hit, TriangleTree::kBund
   if (hits[0].triangle == kNone) return false;
   const RenderTriangle& first = scene_.triangles[hits[0].triangle];
   const RenderMaterial& material = scene_.materials[first.material];
-  if (material.is_flesh || are_holed_[hits[0].triangle]) return false;
+  if (material.is_flesh) return false;
   const Vec3f place = from + hits[0].distance * along[0];
   const Vec3f shares = shares_of(first.corners, place);
   const Vec3f normal = mean(shares, first.normals).normalized();
@@ -175,8 +181,7 @@ bool Shading::look_alike(const std::array<TriangleTree::Hit, TriangleTree::kBund
   for (std::size_t i = 0; i < hits.size(); ++i) {
     if (hits[i].triangle == kNone) return false;
     const RenderTriangle& other = scene_.triangles[hits[i].triangle];
-    if (other.material != first.material || other.has_flesh_inside || are_holed_[hits[i].triangle])
-      return false;
+    if (other.material != first.material || other.has_flesh_inside) return false;
     if (&other == &first && !has_image) continue;
     const Vec3f other_place = from + hits[i].distance * along[i];
     const Vec3f other_shares = shares_of(other.corners, other_place);
@@ -184,7 +189,9 @@ bool Shading::look_alike(const std::array<TriangleTree::Hit, TriangleTree::kBund
     if (!(normal.dot(mean(other_shares, other.normals).normalized()) > kSmooth) ||
         !(std::abs(normal.dot(other_place - place)) < reach) ||
         !are_within_texel(material.image, uv, other_uv) ||
-        !are_within_texel(material.emission_image, uv, other_uv))
+        !are_within_texel(material.emission_image, uv, other_uv) ||
+        (material.alpha == RenderMaterial::Alpha::blended && are_holed_[hits[i].triangle] &&
+         alpha_at(other, other_shares) < kOpaque))
       return false;
   }
   return true;

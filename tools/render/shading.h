@@ -43,6 +43,7 @@ class Shading {
   };
 
   static constexpr std::size_t kMostDirections = 4;
+  static constexpr float kOpaque = 0.99f;  ///< Least alpha of what hides all behind it.
 
   Shading(const RenderScene& scene, const Lighting& lighting);
 
@@ -73,6 +74,8 @@ class Shading {
  private:
   /// Texture coordinates of flesh that is no wound of its own.
   [[nodiscard]] Vec2f inner_flesh(const Vec3f& place) const;
+  /// Of the color of a place, given by the shares of a triangle's corners.
+  [[nodiscard]] float alpha_at(const RenderTriangle& triangle, const Vec3f& shares) const;
   [[nodiscard]] bool lets_pass(Index triangle, const Vec3f& shares, TriangleTree::Ray ray) const;
   [[nodiscard]] TriangleTree::Holes holes() const;
 

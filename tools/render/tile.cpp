@@ -100,7 +100,7 @@ const Tile::Layer& Tile::add_layer(Pixel& pixel, int x, int y, const Vec3f& alon
 void Tile::see_sample(Pixel& pixel, int x, int y, const Vec3f& along, std::size_t sample,
                       TriangleTree::Hit hit) {
   for (int i = 0; hit.triangle != kNone; ++i) {
-    if (add_layer(pixel, x, y, along, hit).look.color.w() >= 0.99f) return;
+    if (add_layer(pixel, x, y, along, hit).look.color.w() >= Shading::kOpaque) return;
     if (i + 1 == kMostLayers) break;
     hit = shading_.find(view_.eye, along, hit.distance * 1.00001f);
   }
