@@ -599,6 +599,34 @@ SUNDER_C_API sunder_status sunder_set_vertex_target(sunder_scene scene, sunder_i
  * this function for the scene. */
 SUNDER_C_API sunder_status sunder_get_instance_mesh(sunder_scene scene, sunder_instance instance,
                                                     uint32_t mesh, sunder_mesh* view);
+
+/* Where a vertex that operations made comes from: what else a program keeps per vertex, it can give
+ * to this one by interpolation over a triangle of the source. */
+typedef struct sunder_vertex_origin {
+  double barycentric[3]; /* per corner of the triangle; >= 0, sum 1 */
+  uint32_t triangle;     /* of the source's mesh; SUNDER_NONE: inside of a wall or cap */
+  uint32_t reserved;
+} sunder_vertex_origin;
+/* Where a triangle comes from, and how it hangs together with others: triangles that share two
+ * points share an edge. */
+typedef struct sunder_triangle_origin {
+  uint32_t triangle;  /* of the source's mesh, of which it is a part; SUNDER_NONE: a wall or cap */
+  uint32_t points[3]; /* of the surface, at its corners; SUNDER_NONE: the triangle was removed */
+} sunder_triangle_origin;
+
+/* The origins of the vertices from `first` on, which is at least the source's vertex count: the
+ * vertices before are those of the source. At most `most` are written; count: how many there are
+ * from `first` on. Fails: SUNDER_NOT_FOUND before the first operation and before
+ * sunder_prepare_to_tear(), as the next. O(written). */
+SUNDER_C_API sunder_status sunder_get_vertex_origins(sunder_scene scene, sunder_instance instance,
+                                                     uint32_t mesh, uint32_t first,
+                                                     sunder_vertex_origin* origins, uint32_t most,
+                                                     uint32_t* count);
+/* The origins of the triangles from `first` on, as for vertices. */
+SUNDER_C_API sunder_status sunder_get_triangle_origins(sunder_scene scene, sunder_instance instance,
+                                                       uint32_t mesh, uint32_t first,
+                                                       sunder_triangle_origin* origins,
+                                                       uint32_t most, uint32_t* count);
 /* The torn character as a GLB: the source document with the meshes that were torn. Pieces of
  * characters from arrays have plain materials. */
 SUNDER_C_API sunder_status sunder_save_instance(sunder_scene scene, sunder_instance instance,
