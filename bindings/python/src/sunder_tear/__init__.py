@@ -3,10 +3,10 @@ from .character import Asset, Bone, Character, Clip, Mesh, Note, material
 from .errors import StaleView, SunderError
 from .piece import Hull, Piece
 from .haptics import blade_force
-from .scene import Command, Contact, ForceTearing, Instance, Layer, PosedMesh, Result, Scene
+from .scene import Command, Contact, ForceTearing, Instance, Layer, Origins, PosedMesh, Result, Scene
 from .torn import Torn, tear
 from .validation import Finding, Report, validate
 
 __all__ = [
-    'Asset', 'Bone', 'Character', 'Clip', 'Command', 'Contact', 'Finding', 'ForceTearing', 'Hull', 'Instance', 'Layer', 'Mesh', 'Note', 'Piece', 'PosedMesh',
+    'Asset', 'Bone', 'Character', 'Clip', 'Command', 'Contact', 'Finding', 'ForceTearing', 'Hull', 'Instance', 'Layer', 'Mesh', 'Note', 'Origins', 'Piece', 'PosedMesh',
     'Report', 'Result', 'Scene', 'StaleView', 'SunderError', 'Torn', 'blade_force', 'material', 'tear', 'validate']

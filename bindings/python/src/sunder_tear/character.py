@@ -11,6 +11,7 @@ import numpy as np
 
 from .abi import abi
 from .arrays import copy, matrices
+from .character_arrays import CharacterStructs
 from .errors import SunderError
 
 _INTERPOLATIONS = ('linear', 'step', 'cubic')
@@ -42,6 +43,7 @@ class Mesh:
     triangle_submesh: np.ndarray
     submeshes: list = field(default_factory=list)
     morph_targets: dict = field(default_factory=dict)
+    labels: set = field(default_factory=set)  #: names of attributes that are copied from a vertex, not interpolated
 
     def weights(self, slot_count: int) -> np.ndarray:
         """Weights as a dense array, (n, slot_count)."""
@@ -68,7 +70,8 @@ def mesh_of(raw) -> Mesh:
         triangles=copy(raw.triangles, m, 3), triangle_submesh=copy(raw.triangle_submesh, m),
         submeshes=[((raw.submeshes[i].name or b'').decode(), raw.submeshes[i].material) for i in range(raw.submesh_count)],
         morph_targets={(raw.morph_targets[i].name or str(i).encode()).decode(): copy(raw.morph_targets[i].position_deltas, n, 3)
-                       for i in range(raw.morph_target_count)})
+                       for i in range(raw.morph_target_count)},
+        labels={raw.attributes[i].name.decode() for i in range(raw.attribute_count) if raw.attributes[i].is_label})
 
 
 @dataclass(frozen=True)
@@ -110,7 +113,7 @@ def _read_file(path, most_bytes: int) -> bytes:
 
 
 class Character:
-    """A rigged model. Immutable; made by load()."""
+    """A rigged model. Immutable; made by load() or from_arrays()."""
 
     def __init__(self, handle: int):
         self._handle = handle
@@ -134,6 +137,14 @@ class Character:
             model = _read_file(model, options.maximum_bytes)
         return Character(abi.output('load_glb', model, len(model), ctypes.byref(options)))
 
+    @staticmethod
+    def from_arrays(bones: list, skins: list, meshes: list, rest_morph_weights=None, name: str = '') -> Character:
+        """A character of one's own arrays, which are copied: as `bones`, `skins` and `meshes` of another give them.
+        rest_morph_weights: of the targets of all meshes, one mesh after the other; None: zeros. Raises ValueError for arrays of another shape, SunderError for what is no valid model (an index out of range,
+        weights that do not sum to one)."""
+        structs = CharacterStructs(name, bones, skins, meshes, rest_morph_weights)
+        return Character(abi.output('create_character', ctypes.byref(structs.data)))
+
     @property
     def name(self) -> str:
         return (self._data.name or b'').decode()
@@ -146,6 +157,11 @@ class Character:
             parent = None if bone.parent == abi.constant('NONE') else bone.parent
             result.append(Bone(bone.name.decode(), parent, (tuple(bone.rest.translation), tuple(bone.rest.rotation), tuple(bone.rest.scale))))
         return result
+
+    @property
+    def rest_morph_weights(self) -> np.ndarray:
+        """Of the targets of all meshes."""
+        return copy(self._data.rest_morph_weights, self._data.morph_weight_count) if self._data.morph_weight_count else np.zeros(0, np.float32)
 
     @property
     def meshes(self) -> list:

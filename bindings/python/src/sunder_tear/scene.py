@@ -156,6 +156,20 @@ class ForceTearing:
     direction: tuple
 
 
+@dataclass(frozen=True)
+class Origins:
+    """Where a torn mesh of n vertices, of which the source has s, and m triangles comes from; -1 is none.
+
+    vertex_triangle (n - s,), vertex_barycentric (n - s, 3): of each vertex that operations made, the triangle of the source and its
+    place there; -1: inside of a wall or cap. triangle (m,): the triangle of the source that each is a part of; -1: a wall or cap.
+    points (m, 3): of the surface, at the corners: triangles that share two points share an edge; -1: the triangle was removed.
+    """
+    vertex_triangle: np.ndarray
+    vertex_barycentric: np.ndarray
+    triangle: np.ndarray
+    points: np.ndarray
+
+
 class Instance:
     """A character in a scene; made by Scene.spawn(). Operations are submitted, and applied by the next Scene.update() in the pose
     that the instance then has. Places are in model space, in metres."""
@@ -300,6 +314,19 @@ class Instance:
         raw = abi.type('mesh')()
         abi.call('get_instance_mesh', self.scene._handle, self._handle, mesh, ctypes.byref(raw))
         return mesh_of(raw)
+
+    def origins(self, mesh: int = 0) -> Origins:
+        """Where the vertices and triangles of the torn mesh come from. Needs prepare_to_tear() or an operation before."""
+        first = len(self.asset.character.meshes[mesh].positions)
+        vertices, triangles = (self._origins(f'{kind}_origin', mesh, start) for kind, start in (('vertex', first), ('triangle', 0)))
+        return Origins(vertices['triangle'].astype(np.int32), vertices['barycentric'].copy(), triangles['triangle'].astype(np.int32),
+                       triangles['points'].astype(np.int32))
+
+    def _origins(self, kind, mesh, first):
+        count = self._output(f'get_{kind}s', mesh, first, None, 0)
+        structs = (abi.type(kind) * max(count, 1))()
+        self._output(f'get_{kind}s', mesh, first, structs, count)
+        return np.ctypeslib.as_array(structs)[:count]
 
     def posed(self, mesh: int = 0) -> PosedMesh:
         """The mesh as it is drawn, copied."""
