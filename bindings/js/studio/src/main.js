@@ -7,6 +7,7 @@ import { Readout } from './readout.js';
 import { Stage } from './stage.js';
 import { Studio } from './studio.js';
 import { tools } from './tools.js';
+import { WeightsError } from './weights_error.js';
 
 const element = (id) => document.getElementById(id);
 const characters = JSON.parse(element('characters').textContent);
@@ -14,7 +15,7 @@ const bytesOf = (base64) => Uint8Array.from(atob(base64), (letter) => letter.cha
 
 const settings = { width: 0, depth: 0, radius: 0, tension: 0, tissue: 'skin', givesWay: true };
 const stage = new Stage(element('canvas'));
-const studio = new Studio(stage, settings, say);
+const studio = new Studio(stage, settings, new WeightsError(element('legend')), say);
 const readout = new Readout(element('readout'));
 const headset = new Headset(stage, studio);
 const history = new HistoryList(element('history'), (count) => studio.goBackTo(count));
@@ -103,6 +104,7 @@ for (const name of ['width', 'depth', 'radius', 'tension']) {
   input.addEventListener('input', apply);
   apply();
 }
+element('weights-error').addEventListener('change', ({ target }) => { studio.weightsError.isShown = target.checked; });
 element('gives-way').addEventListener('change', ({ target }) => { settings.givesWay = target.checked; });
 
 const canvas = element('canvas');
@@ -136,7 +138,7 @@ const fit = () => stage.show(studio.actor.box);
 element('fit').addEventListener('click', fit);
 element('help').addEventListener('click', () => element('helping').showModal());
 
-const KEYS = { ' ': togglePlay, z: () => studio.undo(), y: () => studio.redo(), s: saveLog, g: saveGLB, f: fit, '?': () => element('helping').showModal() };
+const KEYS = { ' ': togglePlay, z: () => studio.undo(), y: () => studio.redo(), s: saveLog, g: saveGLB, f: fit, w: () => element('weights-error').click(), '?': () => element('helping').showModal() };
 addEventListener('keydown', (event) => {
   if (event.ctrlKey || event.metaKey || event.altKey || /^(INPUT|SELECT|BUTTON)$/.test(event.target.tagName) || !studio.actor) return;
   const act = KEYS[event.key.toLowerCase()] ?? (tools[event.key - 1] && (() => choose(tools[event.key - 1])));
@@ -162,6 +164,7 @@ function frame(now) {
   last = now;
   if (figures) {
     readout.add({ ...figures, memory: Sunder.memoryBytes });
+    readout.others = studio.weightsError.lines;
     const { instance } = studio.actor, { undo, redo } = instance.undoCounts;
     element('undo').disabled = undo === 0;
     element('redo').disabled = redo === 0;
