@@ -376,6 +376,44 @@ test('files: a log, a state, a GLB of its own, and files that are damaged', need
   await saysAfter(Buffer.from(torn.state, 'base64'), 'mine.snapshot', 'mine.snapshot restored');
   assert.equal(await page.evaluate(() => String(globalThis.studio.studio.actor.instance.digest)), torn.digest);
   await saysAfter(Buffer.from(torn.glb, 'base64'), 'mine.glb', 'mine: ');
+  const choose = async (name) => {
+    await page.select('#character', await page.$$eval('#character option', (options, text) => options.find((option) => option.text === text).value, name));
+    await page.waitForFunction((shown) => globalThis.studio.studio.name === shown, {}, name);
+  };
+  await choose('Cactus');
+  await choose('mine');
+}));
+
+test('through a hole the inside is seen as flesh', needsChromium, async () => withStudio(async (page) => {
+  const twoSided = cactus(), oneSided = Buffer.from(twoSided.toString('latin1').replaceAll('"doubleSided"', '"noSuchField"'), 'latin1');
+  assert.notDeepEqual(oneSided, twoSided);
+  await openFile(page, oneSided, 'one_sided.glb');
+  await page.waitForFunction(() => globalThis.studio.studio.name === 'one_sided');
+  await takeFrames(page);
+  const seen = await page.evaluate(() => {
+    const { studio, stage } = globalThis.studio, { actor } = studio, { min, max } = actor.box;
+    frames(1);
+    const before = actor.inside.isShown, x = (min.x + max.x) / 2, y = min.y + 0.7 * (max.y - min.y);
+    const origin = [x, y, max.z + 1], direction = [0, 0, -1], surface = actor.instance.raycast(origin, direction).place[2];
+    actor.instance.drill({ origin, direction, radius: 0.04 * actor.size, depth: origin[2] - surface + 0.04 * actor.size });
+    frames(3, 0);
+    const pixels = () => {
+      const canvas = document.getElementById('canvas'), context = new OffscreenCanvas(canvas.width, canvas.height).getContext('2d');
+      stage.draw();
+      context.drawImage(canvas, 0, 0);
+      return context.getImageData(0, 0, canvas.width, canvas.height).data;
+    };
+    const after = actor.inside.isShown, shown = pixels();
+    actor.inside.isShown = false;
+    const hidden = pixels();
+    let flesh = 0;
+    for (let i = 0; i < shown.length; i += 4) if (shown[i + 3] > 250 && hidden[i + 3] < 250 && shown[i] > 1.5 * shown[i + 1]) ++flesh;
+    actor.instance.undo();
+    frames(1, 0);
+    return { before, after, flesh, undone: actor.inside.isShown };
+  });
+  assert.ok(seen.flesh > 200, `${seen.flesh} pixels of flesh where nothing was drawn`);
+  assert.deepEqual([seen.before, seen.after, seen.undone], [false, true, false]);
 }));
 
 test('weights that are deliberately wrong are seen where the character was torn, and their bound is said', needsChromium, async (t) => withStudio(async (page) => {

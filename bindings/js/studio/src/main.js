@@ -46,6 +46,17 @@ async function open(bytes, name) {
   const [note] = model.notes.filter(({ kind }) => kind !== 'information');
   say(note ? `${name}: ${note.text}` : `${name}: ${model.meshCount} meshes, ${model.bones.length} bones, ${model.clips.length} clips`, false);
 }
+/** Opens a character that is not the page's own, and lists it beside those. */
+async function openOther(bytes, name) {
+  await open(bytes, name);
+  let i = characters.findIndex((listed) => listed.name === name);
+  if (i < 0) {
+    i = characters.push({}) - 1;
+    element('character').append(new Option(name, i));
+  }
+  characters[i] = { name, bytes };
+  element('character').value = i;
+}
 async function receive({ name, bytes }) {
   await attempt(async () => {
     const kind = kindOf(bytes);
@@ -53,16 +64,13 @@ async function receive({ name, bytes }) {
     else if (kind === 'state') {
       await studio.restoreState(bytes);
       say(`${name} restored`, false);
-    } else {
-      await open(bytes, name.replace(/\.[^.]*$/, ''));
-      element('character').value = '';
-    }
+    } else await openOther(bytes, name.replace(/\.[^.]*$/, ''));
   });
 }
 for (const [i, { name }] of characters.entries()) element('character').append(new Option(name, i));
 const openChosen = () => attempt(() => {
-  const { name, glb } = characters[element('character').value];
-  return open(bytesOf(glb), name);
+  const { name, glb, bytes = bytesOf(glb) } = characters[element('character').value];
+  return open(bytes, name);
 });
 element('character').addEventListener('change', openChosen);
 receiveFiles({ button: element('open'), input: element('file'), target: element('stage'), onFile: receive });
@@ -171,7 +179,7 @@ function frame(now) {
     history.update(instance);
     if (instance.digest !== digest) {
       digest = instance.digest;
-      element('digest').textContent = digest === 0n ? 'Nothing is torn yet.' : `Digest ${digest.toString(16).padStart(16, '0')}`;
+      element('digest').textContent = undo === 0 ? 'Nothing is torn yet.' : `Digest ${digest.toString(16).padStart(16, '0')}`;
     }
     if (studio.actor.duration > 0) element('seek').value = (studio.actor.time % studio.actor.duration) / studio.actor.duration;
     document.body.dataset.operations = undo;

@@ -133,6 +133,7 @@ export class Studio {
       bytes += piece.drawn.uploadedBytes;
     }
     this.#dropUndone();
+    actor.inside.isShown = actor.isTearing || actor.instance.undoCounts.undo > 0;
     const ended = performance.now();
     this.#attempt(() => this.weightsError.update(actor, this.#use !== null || actor.isTearing));
     return { ...stats, own: ended - began, upload: ended - updated, bytes };
