@@ -194,9 +194,26 @@ element('tissue').addEventListener('change', () => attempt(() => {
   studio.actor.setTissue(settings.tissue);
   studio.applySettings();
 }));
+/** What the address names, `?model=fox.glb&name=Fox`, from where the page is from; @returns why not */
+async function openNamed(query) {
+  const model = query.get('model');
+  if (model === null) return '';
+  try {
+    const answer = await fetch(model);
+    if (!answer.ok) throw new Error(`${answer.status} ${answer.statusText}`);
+    await openOther(new Uint8Array(await answer.arrayBuffer()), query.get('name') ?? model.replace(/.*\/|\.[^.]*$/g, ''));
+    return '';
+  } catch (error) {
+    return `${model}: ${error.message}`;
+  }
+}
 choose(tool);
-element('character').value = 0;
-await openChosen();
+const fault = await openNamed(new URLSearchParams(location.search));
+if (!studio.actor) {
+  element('character').value = 0;
+  await openChosen();
+}
+if (fault) say(fault, true);
 stage.renderer.setAnimationLoop(frame);
 /** For tests and for the console; frame(now) makes one. */
 globalThis.studio = { studio, stage, readout, settings, tools, frame };
