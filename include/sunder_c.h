@@ -77,7 +77,7 @@ enum {
 enum {
   SUNDER_FEATURE_THREADS = 1,   /* scenes may have threads of their own */
   SUNDER_FEATURE_HULLS = 2,     /* sunder_get_piece_hulls() */
-  SUNDER_FEATURE_VALIDATION = 4 /* sunder_validate() */
+  SUNDER_FEATURE_VALIDATION = 4 /* sunder_validate(), sunder_validate_instance() */
 };
 
 /* Version of the library, as SUNDER_C_VERSION. */
@@ -1054,6 +1054,12 @@ typedef struct sunder_report_info {
   double found;           /* the largest that a search found within the joint limits */
   double certified;       /* no certified vertex strays farther in any pose within the limits */
   double metres_per_unit; /* of the source's bind space */
+  /* Of sunder_validate_instance(): the points that the newest operation made on the surface, and
+   * the largest of their deviations and bounds, metres. */
+  double newest_sampled;
+  double newest_certified;
+  uint32_t newest_points;
+  uint32_t newest_uncertified; /* of these, without a bound */
 } sunder_report_info;
 
 SUNDER_C_API sunder_validation_options sunder_default_validation_options(void);
@@ -1063,6 +1069,12 @@ SUNDER_C_API sunder_validation_options sunder_default_validation_options(void);
 SUNDER_C_API sunder_status sunder_validate(sunder_character source, sunder_character target,
                                            const sunder_validation_options* options,
                                            sunder_report* report);
+/* The same for the torn character of an instance and the one that its asset was made from. Vertices
+ * are matched by where operations made them. Fails: as sunder_validate(); SUNDER_NOT_FOUND for the
+ * instance. */
+SUNDER_C_API sunder_status sunder_validate_instance(sunder_scene scene, sunder_instance instance,
+                                                    const sunder_validation_options* options,
+                                                    sunder_report* report);
 SUNDER_C_API sunder_status sunder_destroy_report(sunder_report report);
 SUNDER_C_API sunder_status sunder_get_report(sunder_report report, sunder_report_info* info);
 /* By severity, errors first. A view, valid until the report is destroyed. */

@@ -112,6 +112,17 @@ struct ViewRequest {
 };
 [[nodiscard]] ExitCode run_view(const ViewRequest& request);
 
+/// sunder studio: serves the page of bindings/js/studio to this machine, until SIGINT.
+struct StudioRequest {
+  std::optional<std::filesystem::path> model;
+  std::optional<std::filesystem::path> page;  ///< Empty: the installed or built one.
+  std::uint16_t port = 0;                     ///< 0: a free one.
+  bool opens_browser = true;
+  ModelReading reading;
+  BudgetLimits budget;
+};
+[[nodiscard]] ExitCode run_studio(const StudioRequest& request);
+
 /// sunder picture: draws a model in a pose.
 struct PictureRequest {
   std::filesystem::path model, output;

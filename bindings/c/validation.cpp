@@ -1,8 +1,10 @@
 #if SUNDER_C_VALIDATION
+#include <sunder/tear/torn_weights.h>
 #include <sunder/validation/validation.h>
 #endif
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <string>
@@ -10,6 +12,7 @@
 #include <vector>
 
 #include "bindings/c/character.h"
+#include "bindings/c/scene.h"
 #include "bindings/c/structs.h"
 
 namespace sunder::c {
@@ -69,7 +72,34 @@ sunder_report_info info_of(const ValidationReport& from) {
   return to;
 }
 
-sunder_status validate(const CharacterObject& source, const CharacterObject& target,
+/// Fills the figures of the newest operation.
+sunder_status measure_newest(const TornModel& model, const ValidationReport& from,
+                             sunder_report_info& to) {
+  if (model.undo_count() == 0) return SUNDER_OK;
+  // In no pose: which points there are.
+  const auto newest = measure_weight_errors(model, model.undo_count() - 1, 1, {});
+  if (!newest) return report(newest.error());
+  std::vector<std::size_t> first_vertex = {0};
+  for (const Mesh& mesh : model.character().meshes)
+    first_vertex.push_back(first_vertex.back() + mesh.vertex_count());
+  to.newest_points = static_cast<uint32_t>(newest->points.size());
+  for (const WeightErrors::OfPoint& point : newest->points) {
+    const std::size_t vertex = first_vertex[point.mesh] + point.vertex;
+    to.newest_sampled =
+        std::fmax(to.newest_sampled, static_cast<double>(from.vertex_deviation[vertex]));
+    const bool has_bound =
+        vertex < from.vertex_bound.size() && !std::isnan(from.vertex_bound[vertex]);
+    if (!has_bound) ++to.newest_uncertified;
+    if (has_bound)
+      to.newest_certified =
+          std::max(to.newest_certified, static_cast<double>(from.vertex_bound[vertex]));
+  }
+  return SUNDER_OK;
+}
+
+/// @param torn  the model of the target, if an instance has it
+sunder_status validate(const std::shared_ptr<const Character>& source,
+                       const std::shared_ptr<const Character>& target, const TornModel* torn,
                        const sunder_validation_options& from, sunder_report* handle) {
   if (from.random_poses > kMostPoses)
     return fail(SUNDER_INVALID_ARGUMENT, kNone, "random_poses is %u; it must be at most %u",
@@ -82,11 +112,18 @@ sunder_status validate(const CharacterObject& source, const CharacterObject& tar
   options.maximum_deviation = from.maximum_deviation;
   options.error_deviation = from.error_deviation;
   options.clip_margin = from.clip_margin;
-  auto found =
-      validate_skin(source.parts->loaded.character, target.parts->loaded.character, options);
+  std::vector<Operation> operations;
+  if (torn != nullptr) {
+    auto history = torn->history();
+    if (!history) return report(history.error());
+    operations = std::move(*history);
+    options.operations = operations;
+  }
+  auto found = validate_skin(source, target, options);
   if (!found) return report(found.error());
   auto object = std::make_unique<ReportObject>();
   object->info = info_of(*found);
+  if (torn != nullptr) SUNDER_C_TRY(measure_newest(*torn, *found, object->info));
   object->texts.reserve(4 * found->findings.size());
   object->findings.reserve(found->findings.size());
   for (const Finding& finding : found->findings) {
@@ -116,7 +153,8 @@ sunder_validation_options default_options() {
 
 #else
 
-sunder_status validate(const CharacterObject&, const CharacterObject&,
+sunder_status validate(const std::shared_ptr<const Character>&,
+                       const std::shared_ptr<const Character>&, const TornModel*,
                        const sunder_validation_options&, sunder_report*) {
   return fail(SUNDER_UNSUPPORTED_FEATURE, kNone, "this library was built without validation");
 }
@@ -147,7 +185,24 @@ sunder_status sunder_validate(sunder_character source, sunder_character target,
     if (to == nullptr) return SUNDER_INVALID_HANDLE;
     SUNDER_C_TRY(check_options(options, "options"));
     if (report == nullptr) return null_pointer("report");
-    return validate(*from, *to, options != nullptr ? *options : default_options(), report);
+    return validate(from->parts->loaded.character, to->parts->loaded.character, nullptr,
+                    options != nullptr ? *options : default_options(), report);
+  });
+}
+
+sunder_status sunder_validate_instance(sunder_scene scene, sunder_instance instance,
+                                       const sunder_validation_options* options,
+                                       sunder_report* report) {
+  return guarded([&]() -> sunder_status {
+    Found found;
+    SUNDER_C_TRY(find_instance(scene, instance, found));
+    SUNDER_C_TRY(check_options(options, "options"));
+    if (report == nullptr) return null_pointer("report");
+    // The instance keeps its character meanwhile.
+    const std::shared_ptr<const sunder::Character> torn(std::shared_ptr<void>(),
+                                                        &found.instance->character());
+    return validate(found.instance->asset()->character(), torn, found.instance->model(),
+                    options != nullptr ? *options : default_options(), report);
   });
 }
 

@@ -81,6 +81,7 @@ const std::map<std::string, std::set<std::string>> kThirdPartyOfRoom = {
     {"io/gltf_decoders", {"simdjson.h"}},
     {"io/import_helper", {"seccomp.h"}},
     {"particles/bullet", {"BulletCollision", "BulletDynamics"}},
+    {"tools/studio", {"event2", "netinet"}},
     {"tools/render", {"embree3", "jpeglib.h", "png.h", "zlib.h"}},
     {"validation/match", {"unsupported"}},  // the tree of boxes in Eigen's package
     {"io/urdf", {"console_bridge", "tinyxml2.h", "urdf_model", "urdf_parser"}},

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "c/c_objects.h"
+#include "c/c_twins.h"
 #include "support/models/animated_rig.h"
 
 namespace sunder::test {
@@ -111,6 +112,80 @@ TEST(CValidation, options_out_of_range_are_refused) {
       refuses([](auto& options) { options.maximum_deviation = -1; }).find("maximum_deviation"),
       std::string::npos);
   EXPECT_DONE(sunder_destroy_character(rig));
+}
+
+/// The largest value from a vertex on, NaN aside.
+double largest_from(const float* values, std::uint32_t first, std::uint32_t count) {
+  double largest = 0;
+  for (std::uint32_t v = first; v < count; ++v)
+    if (values[v] > largest) largest = static_cast<double>(values[v]);
+  return largest;
+}
+
+TEST(CValidation, an_instance_is_compared_with_what_it_was_and_the_newest_operation_apart) {
+  Twins twins(make_tube(24, 12, 6), false);
+  const sunder_blade strokes[2][2] = {
+      {{{0, 1.5, 1}, {0, 1.5, 0}}, {{0.05, 1.1, 1}, {0.05, 1.1, 0}}},
+      {{{0, 0.9, 1}, {0, 0.9, 0}}, {{0.05, 0.5, 1}, {0.05, 0.5, 0}}}};
+  sunder_validation_options options = sunder_default_validation_options();
+  options.random_poses = 16;
+  sunder_report_info info = {};
+  info.struct_size = sizeof info;
+  const auto validate = [&] {
+    sunder_report report = 0;
+    EXPECT_DONE(sunder_validate_instance(twins.c_scene, twins.c_id, &options, &report));
+    EXPECT_DONE(sunder_get_report(report, &info));
+    return report;
+  };
+  twins.update();
+  EXPECT_DONE(sunder_destroy_report(validate()));  // before any tear
+  EXPECT_EQ(info.certified, 0);
+  EXPECT_EQ(info.newest_points, 0u);
+
+  // The first tear keeps one influence per vertex, which is wrong; the second keeps all.
+  std::uint32_t before = 0;
+  for (int i = 0; i < 2; ++i) {
+    sunder_tear_options tear = sunder_default_tear_options();
+    tear.weight_policy = SUNDER_WEIGHTS_BARYCENTRIC;
+    tear.maximum_influences = i == 0 ? 1 : 0xFFFFFFFF;
+    before = posed_mesh(twins.c_scene, twins.c_id, 0).vertex_count;
+    EXPECT_DONE(sunder_submit_tear(twins.c_scene, twins.c_id, strokes[i], 2, &tear, 0, nullptr));
+    EXPECT_DONE(sunder_update(twins.c_scene, 0));
+    const sunder_report report = validate();
+    const float *deviations = nullptr, *bounds = nullptr;
+    std::uint32_t count = 0;
+    EXPECT_DONE(sunder_get_vertex_deviations(report, &deviations, &bounds, &count));
+    ASSERT_EQ(count, posed_mesh(twins.c_scene, twins.c_id, 0).vertex_count);
+    EXPECT_GT(count, before);
+    EXPECT_GT(info.newest_points, 0u);
+    EXPECT_EQ(info.newest_uncertified, 0u);
+    EXPECT_EQ(info.newest_sampled, largest_from(deviations, before, count));
+    EXPECT_EQ(info.newest_certified, largest_from(bounds, before, count));
+    EXPECT_GE(info.newest_certified, info.newest_sampled);
+    EXPECT_EQ(largest_from(deviations, 0, 12 * 24), 0);  // what was there is as it was
+    if (i == 0) {
+      EXPECT_GT(info.newest_sampled, 0.01);
+      EXPECT_EQ(info.newest_certified, static_cast<float>(info.certified));
+    } else {
+      EXPECT_LT(info.newest_certified, 0.5 * info.certified);
+    }
+    EXPECT_DONE(sunder_destroy_report(report));
+  }
+}
+
+TEST(CValidation, an_instance_that_is_not_there_and_wrong_options_are_refused) {
+  Twins twins(make_tube(6, 5, 3), false);
+  sunder_report report = 77;
+  EXPECT_EQ(sunder_validate_instance(0, twins.c_id, nullptr, &report), SUNDER_INVALID_HANDLE);
+  EXPECT_EQ(sunder_validate_instance(twins.c_scene, twins.c_id + 1, nullptr, &report),
+            SUNDER_NOT_FOUND);
+  EXPECT_EQ(sunder_validate_instance(twins.c_scene, twins.c_id, nullptr, nullptr),
+            SUNDER_NULL_POINTER);
+  sunder_validation_options options = sunder_default_validation_options();
+  options.random_angle = -1;
+  EXPECT_EQ(sunder_validate_instance(twins.c_scene, twins.c_id, &options, &report),
+            SUNDER_INVALID_ARGUMENT);
+  EXPECT_EQ(report, 77u);
 }
 
 TEST(CBladeForce, is_that_of_the_library_and_opposes_the_motion) {

@@ -62,6 +62,7 @@ std::vector<Verb> add_verbs(CLI::App& app, Requests& requests) {
       {add_bind(app, requests.bind), [&] { return run_bind(requests.bind); }},
       {add_validate(app, requests.validate), [&] { return run_validate(requests.validate); }},
       {add_view(app, requests.view), [&] { return run_view(requests.view); }},
+      {add_studio(app, requests.studio), [&] { return run_studio(requests.studio); }},
       {add_demo(app, requests.demo), [&] { return run_demo(requests.demo); }},
       {add_hidden(app, "man", "Print the manual page"),
        [&] { return print(manual_page(list_verbs(app), kVersion)); }},

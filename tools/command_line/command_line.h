@@ -19,6 +19,7 @@ struct Requests {
   TransferRequest transfer;
   ValidateRequest validate;
   ViewRequest view;
+  StudioRequest studio;
   std::string shell;  ///< For `sunder completions`.
 };
 

@@ -10,6 +10,7 @@ namespace sunder::tools {
 CLI::App* add_bind(CLI::App& app, BindRequest& request);
 CLI::App* add_info(CLI::App& app, InfoRequest& request);
 CLI::App* add_picture(CLI::App& app, PictureRequest& request);
+CLI::App* add_studio(CLI::App& app, StudioRequest& request);
 CLI::App* add_tear(CLI::App& app, TearRequest& request);
 CLI::App* add_demo(CLI::App& app, DemoRequest& request);
 CLI::App* add_transfer(CLI::App& app, TransferRequest& request);

@@ -7,6 +7,7 @@ import { MeshData } from './mesh_data.js';
 import { blade, blades, bytesOf, fieldsOf, namesOf, quadruple, triple } from './options.js';
 import { PosedMesh } from './posed_mesh.js';
 import { invalidArgument, invalidHandle } from './sunder_error.js';
+import { takeReport, validationFields } from './validation.js';
 
 const contactOf = ({ has_hit, contact }) => (has_hit ? namesOf(contact) : null);
 const flagsOf = (background) => (background ? SUNDER_IN_BACKGROUND : 0);
@@ -89,6 +90,9 @@ export class Instance {
   get digest() { return this.#call('sunder_get_digest'); }
   /** The torn character as a file. */
   toGLB(options) { return takeBytes(this.#calls, this.#call('sunder_save_instance', fieldsOf(sunder_save_options, options))); }
+
+  /** How the torn skin deforms beside that of the model, and what the newest operation did to it. */
+  validate(options) { return takeReport(this.#calls, this.#call('sunder_validate_instance', validationFields(options))); }
 
   // ---- the pose ----
 

@@ -18,7 +18,7 @@ const CHOICES = {
   shape: chosen('COLLIDER', ['sphere', 'capsule', 'box', 'halfSpace']),
 };
 /** Words that read better than the fields. */
-const OTHER_NAMES = { weights: 'weight_policy', caps: 'has_caps', wall: 'has_wall', wallDepth: 'wall_depth', soft: 'is_soft', visible: 'is_visible' };
+const OTHER_NAMES = { weights: 'weight_policy', caps: 'has_caps', wall: 'has_wall', wallDepth: 'wall_depth', soft: 'is_soft', visible: 'is_visible', clipLimits: 'has_clip_limits' };
 
 const snake = (name) => OTHER_NAMES[name] ?? name.replace(/[A-Z]/g, (letter) => `_${letter.toLowerCase()}`);
 const camel = (name) => name.replace(/_([a-z])/g, (_, letter) => letter.toUpperCase());

@@ -1,10 +1,11 @@
 // The front door: loads the library when it is first needed.
-import { SUNDER_FEATURE_HULLS, SUNDER_FEATURE_THREADS, sunder_cutting_resistance } from '../generated/calls.js';
+import { SUNDER_FEATURE_HULLS, SUNDER_FEATURE_THREADS, SUNDER_FEATURE_VALIDATION, sunder_cutting_resistance } from '../generated/calls.js';
 import { initialise, library } from './library.js';
 import { MATERIAL_NAMES, describeMaterial, materialOf } from './materials.js';
 import { Model } from './model.js';
 import { fieldsOf, triple } from './options.js';
 import { Scene } from './scene.js';
+import { takeReport, validationFields } from './validation.js';
 
 export const Sunder = {
   /** Loads the library; load(), fromArrays() and createScene() do it too. @param source  bytes, module or response of sunder.wasm, or their promise */
@@ -29,7 +30,13 @@ export const Sunder = {
   },
   get features() {
     const features = library().sunder_features();
-    return { threads: (features & SUNDER_FEATURE_THREADS) !== 0, hulls: (features & SUNDER_FEATURE_HULLS) !== 0 };
+    return { threads: (features & SUNDER_FEATURE_THREADS) !== 0, hulls: (features & SUNDER_FEATURE_HULLS) !== 0,
+      validation: (features & SUNDER_FEATURE_VALIDATION) !== 0 };
+  },
+  /** Compares how the skins of two models deform. @param source  what is right @param target  what is measured */
+  validate(source, target, options) {
+    const calls = library();
+    return takeReport(calls, calls.sunder_validate(source.handle, target.handle, validationFields(options)));
   },
   materialNames: MATERIAL_NAMES,
   /** The numbers of a material of tissue. */

@@ -2,14 +2,13 @@
 import assert from 'node:assert/strict';
 import { execFileSync, spawn } from 'node:child_process';
 import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { request } from 'node:http';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import test, { after, before } from 'node:test';
 import { pathToFileURL } from 'node:url';
 import { Sunder } from 'sunder-tear';
 import { fleshPixels, needsChromium, openPage } from './chromium.mjs';
-import { packageFolder, rig, rigFile, sharedRigs } from './support.mjs';
+import { commandFile, packageFolder, rig, rigFile, sharedRigs } from './support.mjs';
 
 const folder = mkdtempSync(join(tmpdir(), 'sunder-studio-'));
 const file = join(folder, 'index.html');
@@ -136,12 +135,11 @@ test('a tear goes through the places of the pointer, on every character', needsC
 
 /** What the command says of the same log, where it is built; null where it is not. */
 function reportOfCommand(log) {
-  const command = process.env.SUNDER_COMMAND ?? join(packageFolder, '..', '..', 'build', 'release', 'tools', 'sunder');
-  if (!existsSync(command)) return null;
+  if (!existsSync(commandFile)) return null;
   const at = (name) => join(folder, name);
   writeFileSync(at('cactus.glb'), cactus());
   writeFileSync(at('ops.json'), log);
-  execFileSync(command, ['tear', at('cactus.glb'), '--ops', at('ops.json'), '-o', at('torn.glb'), '--report', at('report.json'), '-q']);
+  execFileSync(commandFile, ['tear', at('cactus.glb'), '--ops', at('ops.json'), '-o', at('torn.glb'), '--report', at('report.json'), '-q']);
   return JSON.parse(readFileSync(at('report.json'), 'utf8'));
 }
 
@@ -377,6 +375,116 @@ test('files: a log, a state, a GLB of its own, and files that are damaged', need
   await saysAfter(Buffer.from(torn.state, 'base64'), 'mine.snapshot', 'mine.snapshot restored');
   assert.equal(await page.evaluate(() => String(globalThis.studio.studio.actor.instance.digest)), torn.digest);
   await saysAfter(Buffer.from(torn.glb, 'base64'), 'mine.glb', 'mine: ');
+  const choose = async (name) => {
+    await page.select('#character', await page.$$eval('#character option', (options, text) => options.find((option) => option.text === text).value, name));
+    await page.waitForFunction((shown) => globalThis.studio.studio.name === shown, {}, name);
+  };
+  await choose('Cactus');
+  await choose('mine');
+}));
+
+test('through a hole the inside is seen as flesh', needsChromium, async () => withStudio(async (page) => {
+  const twoSided = cactus(), oneSided = Buffer.from(twoSided.toString('latin1').replaceAll('"doubleSided"', '"noSuchField"'), 'latin1');
+  assert.notDeepEqual(oneSided, twoSided);
+  await openFile(page, oneSided, 'one_sided.glb');
+  await page.waitForFunction(() => globalThis.studio.studio.name === 'one_sided');
+  await takeFrames(page);
+  const seen = await page.evaluate(() => {
+    const { studio, stage } = globalThis.studio, { actor } = studio, { min, max } = actor.box;
+    frames(1);
+    const before = actor.inside.isShown, x = (min.x + max.x) / 2, y = min.y + 0.7 * (max.y - min.y);
+    const origin = [x, y, max.z + 1], direction = [0, 0, -1], surface = actor.instance.raycast(origin, direction).place[2];
+    actor.instance.drill({ origin, direction, radius: 0.04 * actor.size, depth: origin[2] - surface + 0.04 * actor.size });
+    frames(3, 0);
+    const pixels = () => {
+      const canvas = document.getElementById('canvas'), context = new OffscreenCanvas(canvas.width, canvas.height).getContext('2d');
+      stage.draw();
+      context.drawImage(canvas, 0, 0);
+      return context.getImageData(0, 0, canvas.width, canvas.height).data;
+    };
+    const after = actor.inside.isShown, shown = pixels();
+    actor.inside.isShown = false;
+    const hidden = pixels();
+    let flesh = 0;
+    for (let i = 0; i < shown.length; i += 4) if (shown[i + 3] > 250 && hidden[i + 3] < 250 && shown[i] > 1.5 * shown[i + 1]) ++flesh;
+    actor.instance.undo();
+    frames(1, 0);
+    return { before, after, flesh, undone: actor.inside.isShown };
+  });
+  assert.ok(seen.flesh > 200, `${seen.flesh} pixels of flesh where nothing was drawn`);
+  assert.deepEqual([seen.before, seen.after, seen.undone], [false, true, false]);
+}));
+
+test('weights that are deliberately wrong are seen where the character was torn, and their bound is said', needsChromium, async (t) => withStudio(async (page) => {
+  await takeFrames(page);
+  const seen = await page.evaluate(() => {
+    const { studio } = globalThis.studio, { actor } = studio, { instance } = actor, { weightsError } = studio, toggle = document.getElementById('weights-error');
+    const coloured = () => actor.object.children.flatMap(({ children }) => children).filter(({ geometry }) => geometry.attributes.color);
+    const tear = (share, options) => {
+      const { min, max } = actor.box, x = (min.x + max.x) / 2, y = min.y + share * (max.y - min.y);
+      instance.tear([-0.05, 0, 0.05].map((dx) => [[x + dx, y, max.z + 1], [x + dx, y, min.z]]), { layers: 'nearest', weights: 'barycentric', ...options });
+      frames(3);
+    };
+    frames(2);
+    const before = { coloured: coloured().length, counts: instance.model.meshCount };
+    tear(0.37, { maximumInfluences: 1 });
+    toggle.click();
+    frames(1);
+    const of = () => {
+      const meshes = coloured(), { deviations, newest, sampled } = weightsError.report, counts = meshes.map((_, i) => instance.mesh(i).vertexCount);
+      return {
+        colours: meshes.flatMap(({ geometry }, i) => Array.from({ length: counts[i] }, (_, v) => geometry.attributes.color.array.slice(3 * v, 3 * v + 3).join())),
+        isNew: counts.flatMap((count, i) => Array.from({ length: count }, (_, v) => v >= instance.model.mesh(i).vertexCount)),
+        deviations: [...deviations], newest, sampled, meshes: meshes.length,
+        sameGeometry: meshes.every(({ geometry, parent }) => geometry.attributes.position === parent.geometry.attributes.position),
+        legend: document.getElementById('legend').innerText };
+    };
+    const wrong = of();
+    tear(0.55, {});
+    const right = of();
+    globalThis.studio.readout.others = weightsError.lines;
+    const lines = document.getElementById('readout').innerText;
+    globalThis.studio.stage.draw();
+    const picture = document.getElementById('canvas').toDataURL();
+    toggle.click();
+    const drawn = () => {
+      globalThis.studio.stage.draw();
+      return document.getElementById('canvas').toDataURL();
+    };
+    frames(1, 0);
+    const changes = picture !== drawn();
+    frames(20);  // the clip goes on
+    const later = drawn();
+    for (const { geometry } of actor.object.children) geometry.dispose();  // uploads it anew
+    return { before, wrong, right, lines, meshes: actor.object.children.length, changes, isPosed: later === drawn(),
+      after: coloured().length, isDrawn: actor.object.children[0].layers.mask !== 0, isHidden: document.getElementById('legend').hidden };
+  });
+  const { before, wrong, right } = seen;
+  t.diagnostic(`${wrong.isNew.filter(Boolean).length} vertices of the tear stray by at most ${wrong.sampled.toFixed(4)} m; ${wrong.newest.certified.toFixed(4)} m is the bound`);
+  assert.equal(before.coloured, 0);
+  assert.equal(wrong.meshes, seen.meshes);
+  assert.ok(wrong.sameGeometry);
+  assert.equal(wrong.colours.length, wrong.deviations.length);
+  const least = wrong.colours[wrong.deviations.indexOf(0)];
+  // NaN, which is null here: two vertices of the pot are in no triangle.
+  assert.equal(wrong.deviations.filter((deviation, v) => deviation === null && !wrong.isNew[v]).length, 2);
+  let straying = 0;
+  wrong.deviations.forEach((deviation, v) => {
+    if (!wrong.isNew[v] && deviation !== null) assert.deepEqual([deviation, wrong.colours[v]], [0, least], 'what was not torn is as it was, and has one colour');
+    if (deviation > 0.1 * wrong.sampled) {
+      ++straying;
+      assert.notEqual(wrong.colours[v], least);
+    }
+  });
+  assert.ok(straying > 5);
+  assert.match(wrong.legend, /Largest distance .* (mm|m)\b/);
+  assert.ok(wrong.newest.points > 5 && wrong.newest.certified > 0.001);
+  assert.ok(right.newest.certified < wrong.newest.certified, 'the second tear has better weights');
+  assert.ok(right.deviations.length > wrong.deviations.length && right.sameGeometry, 'colours follow the next tear');
+  assert.match(seen.lines, /Bound of the last operation\s+≤ /);
+  assert.ok(seen.changes);
+  assert.ok(seen.isPosed, 'the character is drawn as it moves again');
+  assert.deepEqual([seen.after, seen.isDrawn, seen.isHidden], [0, true, true]);
 }));
 
 test('memory stays as it is over tears that are undone', needsChromium, async () => withStudio(async (page) => {
@@ -443,31 +551,30 @@ test('a finger tears, a second one does not turn the view meanwhile, and one bes
   await page.waitForSelector('body[data-operations="0"]');
 }, { size: { width: 390, height: 844, hasTouch: true, isMobile: true } }));
 
-test('the server shows a model of the user to this machine, and nothing else', needsChromium, async () => {
-  const server = spawn(process.execPath, [join(packageFolder, 'studio', 'serve.mjs'), file, '--no-browser', rigFile('two_clips')]);
+test('`sunder studio` opens the page with a model of the user; an address can name one that is absent', { ...needsChromium, skip: needsChromium.skip || (!existsSync(commandFile) && 'the command is not built') }, async () => {
+  const command = spawn(commandFile, ['studio', rigFile('two_clips'), '--no-open', '--page', file], { stdio: ['ignore', 'pipe', 'ignore'] });
   try {
     const address = await new Promise((resolve, reject) => {
-      server.stdout.once('data', (line) => resolve(String(line).trim()));
-      server.once('exit', (code) => reject(new Error(`the server ended with ${code}`)));
+      command.stdout.once('data', (line) => resolve(String(line).trim()));
+      command.once('exit', (code) => reject(new Error(`the command ended with ${code}`)));
     });
-    const status = (path, headers = {}) => new Promise((resolve, reject) => {
-      request(address + path, { headers, agent: false }, (answer) => { answer.resume(); resolve(answer.statusCode); }).on('error', reject).end();
-    });
-    assert.equal(await status(''), 200);
-    assert.equal(await status('package.json'), 404);
-    assert.equal(await status('', { host: 'elsewhere.example' }), 403);
-    const { page, faults, close } = await openPage({ isOwn: (url) => url === address });
+    const { page, faults, close } = await openPage({ isOwn: (url) => url.startsWith(new URL(address).origin) });
     try {
       await page.goto(address);
       await page.waitForSelector('body[data-operations]');
       assert.equal(await page.evaluate(() => globalThis.studio.studio.name), 'two_clips');
-      assert.equal(await page.$$eval('#character option', (options) => options.length), 4);
+      assert.equal(await page.evaluate(() => globalThis.studio.studio.actor.model.clips.length), 2);
+      assert.equal(await page.$eval('#character', ({ selectedOptions, options }) => `${selectedOptions[0].text} of ${options.length}`), 'two_clips of 4');
       assert.deepEqual(faults, []);
+      await page.goto(new URL('/?model=absent.glb', address).href);
+      await page.waitForSelector('body[data-operations]');
+      assert.match(await page.$eval('#said', (said) => said.textContent), /absent\.glb: 404/);
+      assert.equal(await page.evaluate(() => globalThis.studio.studio.name), 'Cactus');
     } finally {
       await close();
     }
   } finally {
-    server.kill();
+    command.kill();
   }
 });
 

@@ -9,6 +9,9 @@ export const rigFile = (name) => join(root, 'tests', 'data', 'rigged', `${name}.
 export const rig = (name) => new Uint8Array(readFileSync(rigFile(name)));
 export const rigNames = readdirSync(join(root, 'tests', 'data', 'rigged')).filter((name) => name.endsWith('.glb')).map((name) => name.slice(0, -4));
 
+/** The command, which may not be built. */
+export const commandFile = process.env.SUNDER_COMMAND ?? join(root, 'build', 'release', 'tools', 'sunder');
+
 /** Models that are not in the repository: an empty list where they are absent. */
 const shared = join(root, '..', 'shared', 'models', 'rigged');
 export const sharedRigs = existsSync(shared) ? readdirSync(shared).filter((name) => name.endsWith('.glb')).map((name) => join(shared, name)) : [];

@@ -183,6 +183,37 @@ export interface Collider {
 }
 export type TissuePlace = { mesh?: number; vertex: number } | Contact;
 
+export interface ValidationOptions {
+  randomPoses?: number; seed?: number | bigint;
+  /** Largest turn of a bone from rest, radians. */
+  randomAngle?: number;
+  /** Shares of the diagonal above which a deviation is a warning, and an error. */
+  maximumDeviation?: number; errorDeviation?: number;
+  /** Certificates hold for the joints' reach in the clips, and not for all poses. */
+  clipLimits?: boolean;
+  /** Radians beyond the reach in clips. */
+  clipMargin?: number;
+}
+export interface Finding {
+  code: string; text: string; advice: string; unit: string; value: number; threshold: number; count: number;
+  severity: 'note' | 'warning' | 'error'; evidence: 'exact' | 'certified' | 'sampled' | 'notTested';
+  mesh: number | null; vertex: number | null; bone: number | null;
+}
+/** Lengths in metres; arrays are copies. */
+export interface ValidationReport {
+  errorCount: number; warningCount: number; noteCount: number; poseCount: number; vertexCount: number; unmatched: number; uncertified: number;
+  diagonal: number; metresPerUnit: number;
+  /** The largest deviation in the poses that were tried. */
+  sampled: number;
+  /** What a search for the worst pose found, and what no certified vertex exceeds in any pose within the limits. */
+  found: number; certified: number;
+  /** The points that the newest operation made on the surface. */
+  newest: { points: number; uncertified: number; sampled: number; certified: number };
+  findings: Finding[];
+  /** Per vertex of the target, all meshes one after the other. NaN: no match, or no bound. */
+  deviations: Float32Array; bounds: Float32Array;
+}
+
 /** One character in a scene. Operations are applied by the next update, in the pose of then. */
 export class Instance {
   private constructor();
@@ -200,6 +231,7 @@ export class Instance {
   applyLog(json: Bytes): number;
   readonly digest: bigint;
   toGLB(options?: { maximumInfluences?: number }): Uint8Array;
+  validate(options?: ValidationOptions): ValidationReport;
   play(clip?: string | number, options?: PlayOptions): Layer;
   crossFade(clip: string | number, options?: PlayOptions): Layer;
   stop(): void;
@@ -262,7 +294,8 @@ export const Sunder: {
   fromArrays(data: CharacterArrays, options?: ModelOptions): Promise<Model>;
   createScene(options?: { backgroundUpdates?: number }): Promise<Scene>;
   readonly version: string;
-  readonly features: { threads: boolean; hulls: boolean };
+  readonly features: { threads: boolean; hulls: boolean; validation: boolean };
+  validate(source: Model, target: Model, options?: ValidationOptions): ValidationReport;
   readonly materialNames: MaterialName[];
   material(name: MaterialName): TissueMaterial;
   tensionForGap(material: MaterialLike, length: number, gap: number): number;

@@ -62,10 +62,3 @@ export class Scale {
     return [0, 0.25, 0.5, 0.75, 1].map((fraction) => this.value(fraction));
   }
 }
-
-/** The smallest of 1, 1.5, 2, 3, 4, 5, 6, 8 times a power of ten that is not below a value. */
-export function niceTop(value) {
-  if (!(value > 0)) return 1;
-  const power = 10 ** Math.floor(Math.log10(value));
-  return [1, 1.5, 2, 3, 4, 5, 6, 8, 10].find((step) => step * power >= value * (1 - 1e-6)) * power;
-}

@@ -1,6 +1,7 @@
 // What the heat map shows: an array of the target or a bone's weights on both models.
-import { niceTop, Scale } from './colours.js';
+import { Scale } from './colours.js';
 import { influencesOf, NONE } from '../../page_parts/src/decode.js';
+import { niceTop } from '../../page_parts/src/format.js';
 
 /** The weights that a bone has in each vertex of a model. */
 function weightsOf(model, bone) {

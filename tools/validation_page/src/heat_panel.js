@@ -1,8 +1,7 @@
 // The controls of the heat map: what it shows, its scale, the worst vertices.
-import { niceTop } from './colours.js';
 import { byId, html, setText } from '../../page_parts/src/elements.js';
 import { vertexInMesh } from '../../page_parts/src/decode.js';
-import { quantity } from '../../page_parts/src/format.js';
+import { niceTop, quantity } from '../../page_parts/src/format.js';
 import { scaleOf, shownArray, shownBone, topsOf, weighingBones, worstVertices } from './heat.js';
 import { drawLegend } from './legend.js';
 

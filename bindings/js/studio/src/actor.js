@@ -3,6 +3,7 @@ import * as THREE from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { Sunder } from 'sunder-tear';
 import { SunderObject } from '../../src/three/index.js';
+import { Inside } from './inside.js';
 
 /** Wounds of this share of the size are meant, when tension is chosen. */
 const WOUND = 0.25;
@@ -36,6 +37,7 @@ export class Actor {
     actor.gltf = await parsed(bytes);
     actor.object = new SunderObject(actor.instance, { gltf: actor.gltf });
     actor.object.update();
+    actor.inside = new Inside(actor.object.children.flatMap(({ material }) => material));
     for (const mesh of actor.object.children) mesh.castShadow = mesh.receiveShadow = true;
     actor.size = actor.box.getSize(new THREE.Vector3()).length() || 1;
     return actor;

@@ -7,6 +7,7 @@ import { Readout } from './readout.js';
 import { Stage } from './stage.js';
 import { Studio } from './studio.js';
 import { tools } from './tools.js';
+import { WeightsError } from './weights_error.js';
 
 const element = (id) => document.getElementById(id);
 const characters = JSON.parse(element('characters').textContent);
@@ -14,7 +15,7 @@ const bytesOf = (base64) => Uint8Array.from(atob(base64), (letter) => letter.cha
 
 const settings = { width: 0, depth: 0, radius: 0, tension: 0, tissue: 'skin', givesWay: true };
 const stage = new Stage(element('canvas'));
-const studio = new Studio(stage, settings, say);
+const studio = new Studio(stage, settings, new WeightsError(element('legend')), say);
 const readout = new Readout(element('readout'));
 const headset = new Headset(stage, studio);
 const history = new HistoryList(element('history'), (count) => studio.goBackTo(count));
@@ -45,6 +46,17 @@ async function open(bytes, name) {
   const [note] = model.notes.filter(({ kind }) => kind !== 'information');
   say(note ? `${name}: ${note.text}` : `${name}: ${model.meshCount} meshes, ${model.bones.length} bones, ${model.clips.length} clips`, false);
 }
+/** Opens a character that is not the page's own, and lists it beside those. */
+async function openOther(bytes, name) {
+  await open(bytes, name);
+  let i = characters.findIndex((listed) => listed.name === name);
+  if (i < 0) {
+    i = characters.push({}) - 1;
+    element('character').append(new Option(name, i));
+  }
+  characters[i] = { name, bytes };
+  element('character').value = i;
+}
 async function receive({ name, bytes }) {
   await attempt(async () => {
     const kind = kindOf(bytes);
@@ -52,16 +64,13 @@ async function receive({ name, bytes }) {
     else if (kind === 'state') {
       await studio.restoreState(bytes);
       say(`${name} restored`, false);
-    } else {
-      await open(bytes, name.replace(/\.[^.]*$/, ''));
-      element('character').value = '';
-    }
+    } else await openOther(bytes, name.replace(/\.[^.]*$/, ''));
   });
 }
 for (const [i, { name }] of characters.entries()) element('character').append(new Option(name, i));
 const openChosen = () => attempt(() => {
-  const { name, glb } = characters[element('character').value];
-  return open(bytesOf(glb), name);
+  const { name, glb, bytes = bytesOf(glb) } = characters[element('character').value];
+  return open(bytes, name);
 });
 element('character').addEventListener('change', openChosen);
 receiveFiles({ button: element('open'), input: element('file'), target: element('stage'), onFile: receive });
@@ -103,6 +112,7 @@ for (const name of ['width', 'depth', 'radius', 'tension']) {
   input.addEventListener('input', apply);
   apply();
 }
+element('weights-error').addEventListener('change', ({ target }) => { studio.weightsError.isShown = target.checked; });
 element('gives-way').addEventListener('change', ({ target }) => { settings.givesWay = target.checked; });
 
 const canvas = element('canvas');
@@ -136,7 +146,7 @@ const fit = () => stage.show(studio.actor.box);
 element('fit').addEventListener('click', fit);
 element('help').addEventListener('click', () => element('helping').showModal());
 
-const KEYS = { ' ': togglePlay, z: () => studio.undo(), y: () => studio.redo(), s: saveLog, g: saveGLB, f: fit, '?': () => element('helping').showModal() };
+const KEYS = { ' ': togglePlay, z: () => studio.undo(), y: () => studio.redo(), s: saveLog, g: saveGLB, f: fit, w: () => element('weights-error').click(), '?': () => element('helping').showModal() };
 addEventListener('keydown', (event) => {
   if (event.ctrlKey || event.metaKey || event.altKey || /^(INPUT|SELECT|BUTTON)$/.test(event.target.tagName) || !studio.actor) return;
   const act = KEYS[event.key.toLowerCase()] ?? (tools[event.key - 1] && (() => choose(tools[event.key - 1])));
@@ -162,13 +172,14 @@ function frame(now) {
   last = now;
   if (figures) {
     readout.add({ ...figures, memory: Sunder.memoryBytes });
+    readout.others = studio.weightsError.lines;
     const { instance } = studio.actor, { undo, redo } = instance.undoCounts;
     element('undo').disabled = undo === 0;
     element('redo').disabled = redo === 0;
     history.update(instance);
     if (instance.digest !== digest) {
       digest = instance.digest;
-      element('digest').textContent = digest === 0n ? 'Nothing is torn yet.' : `Digest ${digest.toString(16).padStart(16, '0')}`;
+      element('digest').textContent = undo === 0 ? 'Nothing is torn yet.' : `Digest ${digest.toString(16).padStart(16, '0')}`;
     }
     if (studio.actor.duration > 0) element('seek').value = (studio.actor.time % studio.actor.duration) / studio.actor.duration;
     document.body.dataset.operations = undo;
@@ -183,9 +194,26 @@ element('tissue').addEventListener('change', () => attempt(() => {
   studio.actor.setTissue(settings.tissue);
   studio.applySettings();
 }));
+/** What the address names, `?model=fox.glb&name=Fox`, from where the page is from; @returns why not */
+async function openNamed(query) {
+  const model = query.get('model');
+  if (model === null) return '';
+  try {
+    const answer = await fetch(model);
+    if (!answer.ok) throw new Error(`${answer.status} ${answer.statusText}`);
+    await openOther(new Uint8Array(await answer.arrayBuffer()), query.get('name') ?? model.replace(/.*\/|\.[^.]*$/g, ''));
+    return '';
+  } catch (error) {
+    return `${model}: ${error.message}`;
+  }
+}
 choose(tool);
-element('character').value = 0;
-await openChosen();
+const fault = await openNamed(new URLSearchParams(location.search));
+if (!studio.actor) {
+  element('character').value = 0;
+  await openChosen();
+}
+if (fault) say(fault, true);
 stage.renderer.setAnimationLoop(frame);
 /** For tests and for the console; frame(now) makes one. */
 globalThis.studio = { studio, stage, readout, settings, tools, frame };

@@ -18,6 +18,8 @@ const ROWS = {
 };
 
 export class Readout {
+  #list;
+  #others = [];
   #cells = {};
   #sums = {};
   #frames = 0;
@@ -25,6 +27,7 @@ export class Readout {
   shown = {};
 
   constructor(list) {
+    this.#list = list;
     for (const [name, [label]] of Object.entries(ROWS)) {
       const term = document.createElement('dt'), cell = document.createElement('dd');
       term.textContent = label;
@@ -34,7 +37,15 @@ export class Readout {
   }
 
   /** Pairs of a name and its text. */
-  get lines() { return Object.entries(ROWS).map(([name, [label]]) => [label, this.#cells[name].textContent]); }
+  get lines() { return [...this.#others, ...Object.entries(ROWS).map(([name, [label]]) => [label, this.#cells[name].textContent])]; }
+
+  /** Lines above the figures: pairs of a name and its text. */
+  set others(lines) {
+    if (lines.join() === this.#others.join()) return;
+    for (let i = 0; i < 2 * this.#others.length; ++i) this.#list.firstChild.remove();
+    this.#others = lines;
+    this.#list.prepend(...lines.flat().map((text, i) => Object.assign(document.createElement(i % 2 === 0 ? 'dt' : 'dd'), { textContent: text })));
+  }
 
   add(figures) {
     for (const name of Object.keys(ROWS)) this.#sums[name] = (this.#sums[name] ?? 0) + (figures[name] ?? 0);

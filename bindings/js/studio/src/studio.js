@@ -13,6 +13,8 @@ export class Studio {
   actor = null;
   name = '';
   isPlaying = true;
+  /** Colours the character, or not. */
+  weightsError;
   /** What else acts on the character in each frame: { act, feel, dispose }. */
   hands = [];
   get fallen() { return this.#pieces; }
@@ -20,9 +22,11 @@ export class Studio {
 
   /**
    * @param settings  { width, depth, radius, tension, tissue, givesWay }
+   * @param weightsError  a WeightsError
    * @param onMessage  gets what an operation did, and whether it failed
    */
-  constructor(stage, settings, onMessage) {
+  constructor(stage, settings, weightsError, onMessage) {
+    this.weightsError = weightsError;
     this.#stage = stage;
     this.#settings = settings;
     this.#onMessage = onMessage;
@@ -41,6 +45,7 @@ export class Studio {
   close() {
     this.#use = null;
     this.#dropPieces(() => true);
+    this.weightsError.clear();
     this.actor?.dispose();
     this.actor = null;
   }
@@ -128,7 +133,9 @@ export class Studio {
       bytes += piece.drawn.uploadedBytes;
     }
     this.#dropUndone();
+    actor.inside.isShown = actor.isTearing || actor.instance.undoCounts.undo > 0;
     const ended = performance.now();
+    this.#attempt(() => this.weightsError.update(actor, this.#use !== null || actor.isTearing));
     return { ...stats, own: ended - began, upload: ended - updated, bytes };
   }
 

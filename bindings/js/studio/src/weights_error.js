@@ -1,0 +1,132 @@
+// Colours the character by how far each vertex strays from where the model before any tear would have it.
+import * as THREE from 'three';
+import { niceTop, quantity } from '../../../../tools/page_parts/src/format.js';
+
+/** From nothing to the top of the scale: viridis, which people with colour vision deficiencies can read. */
+const RAMP = ['#440154', '#472d7b', '#3b528b', '#2c728e', '#21918c', '#28ae80', '#5ec962', '#addc30', '#fde725'].map((colour) => new THREE.Color(colour));
+/** Of vertices without a place on the model: the insides of wounds. */
+const UNKNOWN = new THREE.Color('#8d8d8d');
+
+function colourOf(value, top) {
+  if (Number.isNaN(value)) return UNKNOWN;
+  const place = Math.min(value / top, 1) * (RAMP.length - 1), first = Math.min(Math.floor(place), RAMP.length - 2);
+  return RAMP[first].clone().lerp(RAMP[first + 1], place - first);
+}
+
+const SHARED = ['position', 'normal'];
+
+/** A mesh with the buffers of one of the character, and colours of its own. The other one is not drawn meanwhile. */
+class ColouredMesh extends THREE.Mesh {
+  #drawn;
+  #of = null;
+  #colours;
+  #heat;
+
+  /** @param colours  of the vertices that there are; those that a tear adds are grey until they are measured */
+  constructor(drawn, material, colours) {
+    super(new THREE.BufferGeometry(), []);
+    this.#drawn = drawn;
+    this.#colours = colours;
+    this.#heat = material;
+    this.matrixAutoUpdate = false;
+    this.castShadow = this.receiveShadow = true;
+    drawn.layers.disableAll();
+    drawn.add(this);
+    this.follow();
+  }
+  /** The character's buffers may be other ones after a tear. */
+  follow() {
+    const { geometry, material } = this.#drawn;
+    if (this.#of !== geometry) this.#share(geometry);
+    this.geometry.groups = geometry.groups;
+    if (this.material.length !== material.length) this.material = material.map(() => this.#heat);
+  }
+  dispose() {
+    this.#drawn.layers.set(0);
+    this.removeFromParent();
+    this.#release();
+  }
+
+  #share(geometry) {
+    this.#release();
+    this.#of = geometry;
+    this.geometry = new THREE.BufferGeometry();
+    for (const name of SHARED) if (geometry.attributes[name]) this.geometry.setAttribute(name, geometry.attributes[name]);
+    const colour = new THREE.BufferAttribute(new Float32Array(3 * geometry.attributes.position.count), 3);
+    for (let v = this.#colours.length / 3; v < colour.count; ++v) UNKNOWN.toArray(colour.array, 3 * v);
+    colour.array.set(this.#colours);
+    this.geometry.setAttribute('color', colour);
+    this.geometry.setIndex(geometry.index);
+    this.geometry.boundingBox = geometry.boundingBox;
+    this.geometry.boundingSphere = geometry.boundingSphere;
+  }
+  /** Disposing of a geometry drops its buffers, but the character is drawn from the shared ones. */
+  #release() {
+    for (const name of SHARED) this.geometry.deleteAttribute(name);
+    this.geometry.setIndex(null);
+    this.geometry.dispose();
+  }
+}
+
+export class WeightsError {
+  #legend;
+  #meshes = [];
+  #material = new THREE.MeshStandardMaterial({ vertexColors: true, roughness: 0.9, side: THREE.DoubleSide });
+  #known = '';
+  isShown = false;
+  /** What was measured last: { deviations, newest … }; null: nothing is shown. */
+  report = null;
+
+  /** @param legend  an element that gets the colours and the lengths that they mean */
+  constructor(legend) { this.#legend = legend; }
+
+  /** Measures again after an operation. @param isBusy  whether a tool works: then the colours wait */
+  update(actor, isBusy) {
+    const { instance } = actor, wanted = this.isShown ? `${instance.id} ${instance.digest} ${actor.model.asset}` : '';
+    if (wanted !== this.#known && !(isBusy && this.isShown)) {
+      this.clear();
+      this.#known = wanted;
+      if (this.isShown) this.#measure(actor);
+    }
+    for (const mesh of this.#meshes) mesh.follow();
+  }
+  /** Of a character that goes. */
+  clear() {
+    for (const mesh of this.#meshes) mesh.dispose();
+    this.#meshes = [];
+    this.#known = '';
+    this.report = null;
+    this.#legend.hidden = true;
+  }
+
+  #measure({ instance, object, model }) {
+    const report = instance.validate(), { deviations, sampled } = report, top = niceTop(sampled);
+    let first = 0;
+    for (const [i, mesh] of object.children.slice(0, model.meshCount).entries()) {
+      const count = instance.mesh(i).vertexCount, colours = new Float32Array(3 * count);
+      for (let v = 0; v < count; ++v) colourOf(deviations[first + v], top).toArray(colours, 3 * v);
+      first += count;
+      this.#meshes.push(new ColouredMesh(mesh, this.#material, colours));
+    }
+    this.report = report;
+    const [least, ramp, most, note] = this.#legend.children;
+    least.textContent = '0 m';
+    ramp.style.background = `linear-gradient(to right, ${RAMP.map((colour) => `#${colour.getHexString()}`).join()})`;
+    most.textContent = sampled > 0 ? quantity(top, 'm') : 'equal';
+    note.textContent = `Largest distance from the model before any tear in ${report.poseCount} poses; at most ${quantity(sampled, 'm')}. Grey: inside a wound.`;
+    this.#legend.hidden = false;
+  }
+
+  /** Pairs of a name and its text, as those of the read-out. */
+  get lines() {
+    if (!this.report) return [];
+    const { newest, sampled, vertexCount, unmatched } = this.report;
+    const bound = ({ certified, uncertified }, count) =>
+      (uncertified === count ? 'none' : `≤ ${quantity(certified, 'm')}${uncertified > 0 ? `, ${uncertified} without` : ''}`);
+    return [
+      ['Weights’ error, tried poses', quantity(sampled, 'm')],
+      ['Its bound in all poses', bound(this.report, vertexCount - unmatched)],
+      ['Bound of the last operation', newest.points > 0 ? bound(newest, newest.points) : 'no new points'],
+    ];
+  }
+}
