@@ -1087,6 +1087,75 @@ SUNDER_C_API sunder_status sunder_get_vertex_deviations(sunder_report report,
                                                         const float** deviations,
                                                         const float** bounds, uint32_t* count);
 
+/* ---- Transfer of a skin ---- */
+
+enum { SUNDER_TRANSFER_CLOSEST_POINT = 0, SUNDER_TRANSFER_INPAINTING = 1 };
+/* How a vertex got its weights: it stands on a vertex of the source; interpolated at an accepted
+ * match; continued from such; interpolated at a place that was not accepted; kept. */
+enum {
+  SUNDER_TRANSFER_COINCIDENT = 0,
+  SUNDER_TRANSFER_MATCHED = 1,
+  SUNDER_TRANSFER_INPAINTED = 2,
+  SUNDER_TRANSFER_NEAREST = 3,
+  SUNDER_TRANSFER_LOCKED = 4
+};
+
+/* Bones of the target and of the source that are the same, though their names differ. */
+typedef struct sunder_bone_names {
+  const char* target;
+  const char* source;
+} sunder_bone_names;
+
+/* docs/transfer.md explains the fields. */
+typedef struct sunder_transfer_options {
+  uint32_t struct_size;
+  uint32_t method;             /* SUNDER_TRANSFER_CLOSEST_POINT or _INPAINTING */
+  uint32_t flips_normals;      /* 1: normals that point the opposite way agree too */
+  uint32_t isolates_parts;     /* 1: each connected part is matched to one of the source */
+  uint32_t keeps_sides_apart;  /* 1: bones named left move only vertices on the left */
+  uint32_t smoothing_sweeps;   /* after filling */
+  uint32_t maximum_influences; /* per vertex; 0: all */
+  uint32_t bone_name_count;
+  uint32_t bone_count;
+  uint32_t locked_count;
+  double distance;           /* of an accepted match; share of the target's diagonal */
+  double angle;              /* between its normals, radians */
+  double smoothness;         /* of what is filled */
+  double smoothing_strength; /* of a sweep, 0 to 1 */
+  double mix;                /* share of the new weights, 0 to 1 */
+  const sunder_bone_names* bone_names;
+  const char* const* bones; /* of the source, whose weights are transferred; none: all */
+  const uint8_t* locked;    /* per vertex of the target, all meshes one after the other: 1 keeps its
+                               weights; null: none */
+} sunder_transfer_options;
+
+typedef struct sunder_transfer_info {
+  uint32_t struct_size;
+  uint32_t vertex_count; /* of the target, all meshes one after the other; as the next five */
+  uint32_t coincident;
+  uint32_t matched;
+  uint32_t inpainted;
+  uint32_t nearest;
+  uint32_t locked;
+  uint32_t too_far;              /* matches refused because of their distance */
+  uint32_t turned_away;          /* matches refused because of their normals */
+  uint32_t has_adopted_skeleton; /* 1: the target had none of the source's bones */
+  double matched_share;          /* of the vertices that are not locked */
+  double largest_distance;       /* of an accepted match, metres */
+} sunder_transfer_info;
+
+SUNDER_C_API sunder_transfer_options sunder_default_transfer_options(void);
+/* Gives a target the skin of a source; both stand in their bind poses in the same place. result: a
+ * new character, with the target's document, if it has one. info: what was done, or null.
+ * outcomes: SUNDER_TRANSFER_..., one per vertex of the target, all meshes one after the other, or
+ * null. O(vertices log triangles), allocates. Fails: SUNDER_NOT_FOUND if nothing matches, or for a
+ * bone; SUNDER_SIZE_MISMATCH of `locked`; SUNDER_UNSUPPORTED_FEATURE without
+ * SUNDER_FEATURE_VALIDATION; an option out of its range. */
+SUNDER_C_API sunder_status sunder_transfer(sunder_character source, sunder_character target,
+                                           const sunder_transfer_options* options,
+                                           sunder_character* result, sunder_transfer_info* info,
+                                           uint8_t* outcomes);
+
 /* ---- Snapshots ---- */
 
 typedef struct sunder_restore_options {

@@ -5,8 +5,9 @@ from .piece import Hull, Piece
 from .haptics import blade_force
 from .scene import Command, Contact, ForceTearing, Instance, Layer, Origins, PosedMesh, Result, Scene
 from .torn import Torn, tear
+from .transfer import Transfer, transfer
 from .validation import Finding, Report, validate
 
 __all__ = [
     'Asset', 'Bone', 'Character', 'Clip', 'Command', 'Contact', 'Finding', 'ForceTearing', 'Hull', 'Instance', 'Layer', 'Mesh', 'Note', 'Origins', 'Piece', 'PosedMesh',
-    'Report', 'Result', 'Scene', 'StaleView', 'SunderError', 'Torn', 'blade_force', 'material', 'tear', 'validate']
+    'Report', 'Result', 'Scene', 'StaleView', 'SunderError', 'Torn', 'Transfer', 'blade_force', 'material', 'tear', 'transfer', 'validate']
