@@ -33,7 +33,10 @@ void Lines::add(Colour colour, std::string_view head, std::string_view rest) {
   text_ += begin_of(colour) + visible_line(head) + "\x1b[0m" + visible(rest) + '\n';
 }
 
-void print(const Lines& lines) { put(lines.text()); }
+void print(const Lines& lines) {
+  put(lines.text());
+  std::fflush(stdout);  // `sunder studio` goes on, and who reads its address waits
+}
 
 void print(const Json& json) { put(dump(json)); }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
 #include <string>
 #include <system_error>
@@ -59,7 +58,6 @@ void announce(const std::string& address, bool opens) {
   Lines lines;
   lines.add(address);
   print(lines);
-  std::fflush(stdout);
   const Messages messages(Verbosity::normal);
   if (opens && !open_in_browser(address))
     messages.warn("no program opens addresses here (xdg-open); open it yourself");

@@ -42,7 +42,8 @@ def transfer(source: Character, target: Character, *, method: str = 'inpainting'
         raise ValueError(f'method is {method!r}; it must be one of {methods}')
     raw = abi.new('transfer_options', method=methods.index(method), **options)
     names = [abi.type('bone_names')(of.encode(), to.encode()) for of, to in (bone_names or {}).items()]
-    pairs, wanted = (abi.type('bone_names') * max(len(names), 1))(*names), (ctypes.c_char_p * max(len(bones), 1))(*(b.encode() for b in bones))
+    pairs = (abi.type('bone_names') * max(len(names), 1))(*names)
+    wanted = (ctypes.c_char_p * max(len(bones), 1))(*(bone.encode() for bone in bones))
     raw.bone_names, raw.bone_name_count, raw.bones, raw.bone_count = pairs, len(names), wanted, len(bones)
     if locked is not None:
         flags = numbers(np.asarray(locked, bool), np.uint8, -1)
