@@ -1,5 +1,6 @@
 """Sunder for Python: rigged characters that are torn while they move. docs/python.md of the project has examples."""
 from .character import Asset, Bone, Character, Clip, Mesh, Note, material
+from .environment import WoundEnvironment
 from .errors import StaleView, SunderError
 from .piece import Hull, Piece
 from .haptics import blade_force
@@ -10,4 +11,4 @@ from .validation import Finding, Report, validate
 
 __all__ = [
     'Asset', 'Bone', 'Character', 'Clip', 'Command', 'Contact', 'Finding', 'ForceTearing', 'Hull', 'Instance', 'Layer', 'Mesh', 'Note', 'Origins', 'Piece', 'PosedMesh',
-    'Report', 'Result', 'Scene', 'StaleView', 'SunderError', 'Torn', 'Transfer', 'blade_force', 'material', 'tear', 'transfer', 'validate']
+    'Report', 'Result', 'Scene', 'StaleView', 'SunderError', 'Torn', 'Transfer', 'WoundEnvironment', 'blade_force', 'material', 'tear', 'transfer', 'validate']
