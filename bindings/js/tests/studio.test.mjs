@@ -383,6 +383,26 @@ test('files: a log, a state, a GLB of its own, and files that are damaged', need
   await choose('mine');
 }));
 
+test('keys choose tools and turn the view, and names that turn the direction of writing are shown as escapes', needsChromium, async () => withStudio(async (page) => {
+  const camera = () => page.evaluate(() => globalThis.studio.stage.camera.position.toArray());
+  await page.focus('#canvas');
+  await page.keyboard.press('4');
+  assert.equal(await page.$eval('#tools :checked', ({ value }) => value), '3');
+  const before = await camera();
+  await page.keyboard.press('ArrowRight');
+  const turned = await camera();
+  assert.ok(Math.abs(turned[0] - before[0]) > 0.01 && Math.abs(turned[1] - before[1]) < 1e-9);
+  await page.keyboard.press('-');
+  assert.ok(Math.hypot(...await camera()) > Math.hypot(...turned));
+  await page.focus('#speed');
+  await page.keyboard.press('1');
+  assert.equal(await page.$eval('#tools :checked', ({ value }) => value), '3', 'a list keeps what is typed');
+  await openFile(page, rig('tube'), 'evil\u202ebulg.glb');
+  await page.waitForFunction(() => globalThis.studio.studio.name.startsWith('evil'));
+  await page.waitForFunction(() => document.getElementById('said').textContent.startsWith('evil\\u202ebulg: '));
+  assert.equal(await page.$eval('#character', ({ selectedOptions }) => selectedOptions[0].text), 'evil\\u202ebulg');
+}));
+
 test('through a hole the inside is seen as flesh', needsChromium, async () => withStudio(async (page) => {
   const twoSided = cactus(), oneSided = Buffer.from(twoSided.toString('latin1').replaceAll('"doubleSided"', '"noSuchField"'), 'latin1');
   assert.notDeepEqual(oneSided, twoSided);

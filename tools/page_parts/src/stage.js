@@ -137,22 +137,6 @@ export class Stage {
     if (this.flight) this.requestFrame();
   }
 
-  turn(right, up) {
-    const offset = this.camera.position.clone().sub(this.controls.target);
-    const side = new Vector3().crossVectors(this.camera.up, offset).normalize();
-    offset.applyAxisAngle(this.camera.up, right);
-    const height = offset.angleTo(this.camera.up) - up;
-    if (height > 0.05 && height < Math.PI - 0.05) offset.applyAxisAngle(side, -up);
-    this.camera.position.copy(this.controls.target).add(offset);
-    this.controls.update();
-  }
-
-  zoom(factor) {
-    const offset = this.camera.position.clone().sub(this.controls.target).multiplyScalar(factor);
-    this.camera.position.copy(this.controls.target).add(offset);
-    this.controls.update();
-  }
-
   /** The viewport under a place of the canvas, and the ray from the eye through it. */
   rayAt(x, y) {
     const { clientWidth: width, clientHeight: height } = this.canvas.parentElement;

@@ -81,17 +81,13 @@ function listen() {
   byId('bones').addEventListener('change', (event) => models.showBones(event.target.checked));
   byId('frame').addEventListener('click', fit);
   byId('help').addEventListener('click', () => byId('keys').showModal());
-  listenToKeys(byId('canvas'), {
+  listenToKeys(byId('canvas'), stage, {
     ' ': () => time.togglePlay(), ',': () => time.step(-1), '.': () => time.step(1),
     w: () => time.togglePose(0), n: () => heat.step(1), p: () => heat.step(-1),
     f: fit, h: () => heat.toggle(), l: () => heat.toggleLog(),
     b: () => toggleBox('bones', (isShown) => models.showBones(isShown)),
     v: () => document.querySelector('input[name=layout]:not(:checked)').click(),
     '?': () => byId('keys').showModal(),
-  }, {
-    ArrowLeft: () => stage.turn(-0.12, 0), ArrowRight: () => stage.turn(0.12, 0),
-    ArrowUp: () => stage.turn(0, 0.1), ArrowDown: () => stage.turn(0, -0.1),
-    '+': () => stage.zoom(0.9), '=': () => stage.zoom(0.9), '-': () => stage.zoom(1.1),
   });
 }
 

@@ -221,7 +221,7 @@ class Page {
     const { stage, time, placing, history } = this;
     const click = (id) => () => byId(id).click();
     const tools = ['look', 'tear', 'cut', 'drill', 'limb', 'incision'];
-    listenToKeys(byId('canvas'), {
+    listenToKeys(byId('canvas'), stage, {
       ' ': () => time.togglePlay(), ',': () => time.step(-1), '.': () => time.step(1),
       ...Object.fromEntries(tools.map((tool, i) => [String(i + 1), () => placing.choose(tool)])),
       Enter: () => placing.finish(), Backspace: () => placing.back(), Escape: () => placing.drop(),
@@ -229,10 +229,6 @@ class Page {
       y: () => history.step(1), s: click('save'), b: click('bones'), c: click('colours'),
       o: () => this.toggleOverlays(), f: () => this.fit(), '?': click('help'),
       t: () => this.data.target && this.show(this.which === 'source' ? 'target' : 'source'),
-    }, {
-      ArrowLeft: () => stage.turn(-0.12, 0), ArrowRight: () => stage.turn(0.12, 0),
-      ArrowUp: () => stage.turn(0, 0.1), ArrowDown: () => stage.turn(0, -0.1),
-      '+': () => stage.zoom(0.9), '=': () => stage.zoom(0.9), '-': () => stage.zoom(1.1),
     });
   }
 

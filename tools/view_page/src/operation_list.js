@@ -1,5 +1,6 @@
 // The list of operations, and the log that they make.
 import { byId, html } from '../../page_parts/src/elements.js';
+import { saveFile } from '../../page_parts/src/save_file.js';
 import { describe, formatLog } from './log.js';
 
 export class OperationList {
@@ -55,9 +56,7 @@ export class OperationList {
   }
 
   save() {
-    const url = URL.createObjectURL(new Blob([this.text], { type: 'application/json' }));
-    html('a', { href: url, download: this.name }).click();
-    setTimeout(() => URL.revokeObjectURL(url), 10000);
+    saveFile(this.text, this.name, 'application/json');
     this.onMessage(`Saved as ${this.name}.`);
   }
 }

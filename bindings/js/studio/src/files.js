@@ -1,12 +1,4 @@
-// Files that are opened, dropped and saved. Their contents are not trusted: what the library refuses is said.
-
-export function save(bytes, name, type = 'application/octet-stream') {
-  const link = document.createElement('a');
-  link.href = URL.createObjectURL(new Blob([bytes], { type }));
-  link.download = name;
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
-}
+// Files that are opened and dropped. Their contents are not trusted: what the library refuses is said.
 
 /** What a file is, by its first bytes: 'glb', 'log', 'gltf' or 'state'. */
 export function kindOf(bytes) {

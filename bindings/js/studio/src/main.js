@@ -1,6 +1,9 @@
 // Joins the page: controls, keys, pointers, frames.
 import { Sunder } from 'sunder-tear';
-import { kindOf, receiveFiles, save } from './files.js';
+import { byId, html, setText } from '../../../../tools/page_parts/src/elements.js';
+import { listenToKeys } from '../../../../tools/page_parts/src/keys.js';
+import { saveFile } from '../../../../tools/page_parts/src/save_file.js';
+import { kindOf, receiveFiles } from './files.js';
 import { Headset } from './headset.js';
 import { HistoryList } from './history_list.js';
 import { Readout } from './readout.js';
@@ -9,21 +12,20 @@ import { Studio } from './studio.js';
 import { tools } from './tools.js';
 import { WeightsError } from './weights_error.js';
 
-const element = (id) => document.getElementById(id);
-const characters = JSON.parse(element('characters').textContent);
+const characters = JSON.parse(byId('characters').textContent);
 const bytesOf = (base64) => Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
 
 const settings = { width: 0, depth: 0, radius: 0, tension: 0, tissue: 'skin', givesWay: true };
-const stage = new Stage(element('canvas'));
-const studio = new Studio(stage, settings, new WeightsError(element('legend')), say);
-const readout = new Readout(element('readout'));
+const stage = new Stage(byId('canvas'));
+const studio = new Studio(stage, settings, new WeightsError(byId('legend')), say);
+const readout = new Readout(byId('readout'));
 const headset = new Headset(stage, studio);
-const history = new HistoryList(element('history'), (count) => studio.goBackTo(count));
+const history = new HistoryList(byId('history'), (count) => studio.goBackTo(count));
 let tool = tools[1];
 
 function say(text, isFailure) {
-  const said = element('said');
-  said.textContent = text;
+  const said = byId('said');
+  setText(said, text);
   said.hidden = false;
   said.style.color = isFailure ? 'var(--error)' : '';
 }
@@ -41,8 +43,8 @@ async function attempt(action) {
 async function open(bytes, name) {
   await studio.open(bytes, name);
   const { model } = studio.actor;
-  element('clip').replaceChildren(...model.clips.map((clip, i) => new Option(clip.name || `Clip ${i + 1}`, i)));
-  element('clip').disabled = element('play').disabled = element('seek').disabled = model.clips.length === 0;
+  byId('clip').replaceChildren(...model.clips.map((clip, i) => html('option', { value: i }, clip.name || `Clip ${i + 1}`)));
+  byId('clip').disabled = byId('play').disabled = byId('seek').disabled = model.clips.length === 0;
   const [note] = model.notes.filter(({ kind }) => kind !== 'information');
   say(note ? `${name}: ${note.text}` : `${name}: ${model.meshCount} meshes, ${model.bones.length} bones, ${model.clips.length} clips`, false);
 }
@@ -52,10 +54,10 @@ async function openOther(bytes, name) {
   let i = characters.findIndex((listed) => listed.name === name);
   if (i < 0) {
     i = characters.push({}) - 1;
-    element('character').append(new Option(name, i));
+    byId('character').append(html('option', { value: i }, name));
   }
   characters[i] = { name, bytes };
-  element('character').value = i;
+  byId('character').value = i;
 }
 async function receive({ name, bytes }) {
   await attempt(async () => {
@@ -67,43 +69,39 @@ async function receive({ name, bytes }) {
     } else await openOther(bytes, name.replace(/\.[^.]*$/, ''));
   });
 }
-for (const [i, { name }] of characters.entries()) element('character').append(new Option(name, i));
+for (const [i, { name }] of characters.entries()) byId('character').append(html('option', { value: i }, name));
 const openChosen = () => attempt(() => {
-  const { name, glb, bytes = bytesOf(glb) } = characters[element('character').value];
+  const { name, glb, bytes = bytesOf(glb) } = characters[byId('character').value];
   return open(bytes, name);
 });
-element('character').addEventListener('change', openChosen);
-receiveFiles({ button: element('open'), input: element('file'), target: element('stage'), onFile: receive });
+byId('character').addEventListener('change', openChosen);
+receiveFiles({ button: byId('open'), input: byId('file'), target: byId('stage'), onFile: receive });
 
 function togglePlay() {
   studio.isPlaying = !studio.isPlaying;
   studio.applySettings();
-  element('play').textContent = studio.isPlaying ? 'Pause' : 'Play';
+  byId('play').textContent = studio.isPlaying ? 'Pause' : 'Play';
 }
-element('play').addEventListener('click', togglePlay);
-element('clip').addEventListener('change', () => {
-  studio.actor.play(Number(element('clip').value));
+byId('play').addEventListener('click', togglePlay);
+byId('clip').addEventListener('change', () => {
+  studio.actor.play(Number(byId('clip').value));
   studio.applySettings();
 });
-element('seek').addEventListener('input', () => { studio.actor.time = element('seek').value * studio.actor.duration; });
-element('speed').addEventListener('change', () => { studio.speed = Number(element('speed').value); });
+byId('seek').addEventListener('input', () => { studio.actor.time = byId('seek').value * studio.actor.duration; });
+byId('speed').addEventListener('change', () => { studio.speed = Number(byId('speed').value); });
 
 // ---- tools and settings ----
 
 function choose(next) {
   tool = next;
-  element('hint').textContent = tool.hint;
-  element('stage').dataset.tool = tool.begin ? 'works' : 'turns';
-  for (const input of element('tools').querySelectorAll('input')) input.checked = tools[input.value] === tool;
+  byId('hint').textContent = tool.hint;
+  byId('stage').dataset.tool = tool.begin ? 'works' : 'turns';
+  for (const input of byId('tools').querySelectorAll('input')) input.checked = tools[input.value] === tool;
 }
-for (const [i, { name }] of tools.entries()) {
-  const label = document.createElement('label'), input = Object.assign(document.createElement('input'), { type: 'radio', name: 'tool', value: i });
-  input.addEventListener('change', () => choose(tools[i]));
-  label.append(input, name);
-  element('tools').append(label);
-}
+for (const [i, { name }] of tools.entries())
+  byId('tools').append(html('label', {}, html('input', { type: 'radio', name: 'tool', value: i, onchange: () => choose(tools[i]) }), name));
 for (const name of ['width', 'depth', 'radius', 'tension']) {
-  const input = element(name), shown = document.querySelector(`output[for=${name}]`);
+  const input = byId(name), shown = document.querySelector(`output[for=${name}]`);
   const apply = () => {
     settings[name] = Number(input.value);
     shown.textContent = `${(100 * settings[name]).toFixed(1)} %`;
@@ -112,10 +110,10 @@ for (const name of ['width', 'depth', 'radius', 'tension']) {
   input.addEventListener('input', apply);
   apply();
 }
-element('weights-error').addEventListener('change', ({ target }) => { studio.weightsError.isShown = target.checked; });
-element('gives-way').addEventListener('change', ({ target }) => { settings.givesWay = target.checked; });
+byId('weights-error').addEventListener('change', ({ target }) => { studio.weightsError.isShown = target.checked; });
+byId('gives-way').addEventListener('change', ({ target }) => { settings.givesWay = target.checked; });
 
-const canvas = element('canvas');
+const canvas = byId('canvas');
 let pointer = null;
 canvas.addEventListener('pointerdown', (event) => {
   if (pointer === null) {
@@ -135,33 +133,24 @@ for (const type of ['pointerup', 'pointercancel'])
 
 // ---- history and files ----
 
-element('undo').addEventListener('click', () => studio.undo());
-element('redo').addEventListener('click', () => studio.redo());
-const saveLog = () => attempt(() => save(studio.actor.instance.log, `${studio.name}_ops.json`, 'application/json'));
-const saveGLB = () => attempt(() => save(studio.actor.instance.toGLB(), `${studio.name}_torn.glb`, 'model/gltf-binary'));
-element('save-log').addEventListener('click', saveLog);
-element('save-glb').addEventListener('click', saveGLB);
-element('save-snapshot').addEventListener('click', () => attempt(() => save(studio.saveState(), `${studio.name}.snapshot`)));
+byId('undo').addEventListener('click', () => studio.undo());
+byId('redo').addEventListener('click', () => studio.redo());
+const saveLog = () => attempt(() => saveFile(studio.actor.instance.log, `${studio.name}_ops.json`, 'application/json'));
+const saveGLB = () => attempt(() => saveFile(studio.actor.instance.toGLB(), `${studio.name}_torn.glb`, 'model/gltf-binary'));
+byId('save-log').addEventListener('click', saveLog);
+byId('save-glb').addEventListener('click', saveGLB);
+byId('save-snapshot').addEventListener('click', () => attempt(() => saveFile(studio.saveState(), `${studio.name}.snapshot`)));
 const fit = () => stage.show(studio.actor.box);
-element('fit').addEventListener('click', fit);
-element('help').addEventListener('click', () => element('helping').showModal());
-
-const KEYS = { ' ': togglePlay, z: () => studio.undo(), y: () => studio.redo(), s: saveLog, g: saveGLB, f: fit, w: () => element('weights-error').click(), '?': () => element('helping').showModal() };
-addEventListener('keydown', (event) => {
-  if (event.ctrlKey || event.metaKey || event.altKey || /^(INPUT|SELECT|BUTTON)$/.test(event.target.tagName) || !studio.actor) return;
-  const act = KEYS[event.key.toLowerCase()] ?? (tools[event.key - 1] && (() => choose(tools[event.key - 1])));
-  if (!act) return;
-  event.preventDefault();
-  act();
-});
+byId('fit').addEventListener('click', fit);
+byId('help').addEventListener('click', () => byId('helping').showModal());
 
 // ---- the headset ----
 
-element('enter-vr').hidden = !await Headset.isThere();
-element('enter-vr').addEventListener('click', () => attempt(async () => {
+byId('enter-vr').hidden = !await Headset.isThere();
+byId('enter-vr').addEventListener('click', () => attempt(async () => {
   if (headset.session) return headset.session.end();
-  await headset.enter(() => { element('enter-vr').textContent = 'Enter VR'; });
-  element('enter-vr').textContent = 'Leave VR';
+  await headset.enter(() => { byId('enter-vr').textContent = 'Enter VR'; });
+  byId('enter-vr').textContent = 'Leave VR';
 }));
 
 // ---- frames ----
@@ -174,23 +163,23 @@ function frame(now) {
     readout.add({ ...figures, memory: Sunder.memoryBytes });
     readout.others = studio.weightsError.lines;
     const { instance } = studio.actor, { undo, redo } = instance.undoCounts;
-    element('undo').disabled = undo === 0;
-    element('redo').disabled = redo === 0;
+    byId('undo').disabled = undo === 0;
+    byId('redo').disabled = redo === 0;
     history.update(instance);
     if (instance.digest !== digest) {
       digest = instance.digest;
-      element('digest').textContent = undo === 0 ? 'Nothing is torn yet.' : `Digest ${digest.toString(16).padStart(16, '0')}`;
+      byId('digest').textContent = undo === 0 ? 'Nothing is torn yet.' : `Digest ${digest.toString(16).padStart(16, '0')}`;
     }
-    if (studio.actor.duration > 0) element('seek').value = (studio.actor.time % studio.actor.duration) / studio.actor.duration;
+    if (studio.actor.duration > 0) byId('seek').value = (studio.actor.time % studio.actor.duration) / studio.actor.duration;
     document.body.dataset.operations = undo;
   }
-  headset.show([...readout.lines, [element('said').textContent, '']]);
+  headset.show([...readout.lines, [byId('said').textContent, '']]);
   stage.draw();
 }
 
-for (const name of Sunder.materialNames) element('tissue').append(new Option(name, name, name === settings.tissue, name === settings.tissue));
-element('tissue').addEventListener('change', () => attempt(() => {
-  settings.tissue = element('tissue').value;
+for (const name of Sunder.materialNames) byId('tissue').append(html('option', { selected: name === settings.tissue }, name));
+byId('tissue').addEventListener('change', () => attempt(() => {
+  settings.tissue = byId('tissue').value;
   studio.actor.setTissue(settings.tissue);
   studio.applySettings();
 }));
@@ -210,10 +199,14 @@ async function openNamed(query) {
 choose(tool);
 const fault = await openNamed(new URLSearchParams(location.search));
 if (!studio.actor) {
-  element('character').value = 0;
+  byId('character').value = 0;
   await openChosen();
 }
 if (fault) say(fault, true);
+listenToKeys(canvas, stage, {
+  ' ': togglePlay, z: () => studio.undo(), y: () => studio.redo(), s: saveLog, g: saveGLB, f: fit, w: () => byId('weights-error').click(),
+  '?': () => byId('helping').showModal(), ...Object.fromEntries(tools.map((one, i) => [i + 1, () => choose(one)])),
+});
 stage.renderer.setAnimationLoop(frame);
 /** For tests and for the console; frame(now) makes one. */
 globalThis.studio = { studio, stage, readout, settings, tools, frame };

@@ -1,4 +1,5 @@
 // The figures of a frame, averaged over some so that they can be read.
+import { html } from '../../../../tools/page_parts/src/elements.js';
 
 const SHOWN_EVERY = 12;
 const milliseconds = (value) => `${value.toFixed(2)} ms`;
@@ -29,8 +30,7 @@ export class Readout {
   constructor(list) {
     this.#list = list;
     for (const [name, [label]] of Object.entries(ROWS)) {
-      const term = document.createElement('dt'), cell = document.createElement('dd');
-      term.textContent = label;
+      const term = html('dt', {}, label), cell = html('dd');
       list.append(term, cell);
       this.#cells[name] = cell;
     }
@@ -44,7 +44,7 @@ export class Readout {
     if (lines.join() === this.#others.join()) return;
     for (let i = 0; i < 2 * this.#others.length; ++i) this.#list.firstChild.remove();
     this.#others = lines;
-    this.#list.prepend(...lines.flat().map((text, i) => Object.assign(document.createElement(i % 2 === 0 ? 'dt' : 'dd'), { textContent: text })));
+    this.#list.prepend(...lines.flat().map((text, i) => html(i % 2 === 0 ? 'dt' : 'dd', {}, text)));
   }
 
   add(figures) {
