@@ -856,6 +856,50 @@ SUNDER_C_API sunder_status sunder_get_piece_hulls(sunder_piece piece, uint32_t m
 SUNDER_C_API sunder_status sunder_inherit_motion(sunder_scene scene, sunder_instance instance,
                                                  sunder_piece piece);
 
+/* ---- The wounds in the texture ---- */
+
+typedef struct sunder_wound_mask_options {
+  uint32_t struct_size;
+  uint32_t width; /* texels of the texture, 1 to 16384 */
+  uint32_t height;
+  uint32_t uv_set;
+  uint32_t dilation; /* texels beyond the border of a chart, 1 to 64 */
+  uint32_t reserved;
+  double reach; /* metres along the surface; texels farther from a lip have this distance */
+} sunder_wound_mask_options;
+
+/* distances: width * height numbers, row by row from the top: metres along the surface from the
+ * nearest lip, at most the reach; negative where operations removed the skin. */
+typedef struct sunder_wound_mask {
+  uint32_t struct_size;
+  uint32_t width;
+  uint32_t height;
+  uint32_t left; /* the texels that may have changed since the last call; none: width 0 */
+  uint32_t top;
+  uint32_t changed_width;
+  uint32_t changed_height;
+  uint32_t overlapping_texels;  /* of mirrored or stacked charts */
+  uint32_t unpainted_triangles; /* without area in the texture, or wider than it */
+  uint32_t reserved;
+  const float* distances;
+} sunder_wound_mask;
+
+SUNDER_C_API sunder_wound_mask_options sunder_default_wound_mask_options(void);
+/* Keeps the wounds of a mesh in a texture from now on: every operation, undo and redo paints what
+ * it changes; docs/wound_mask.md. Called again, it begins anew. Snapshots do not keep it. O(texels
+ * + triangles), allocates. Fails: SUNDER_NOT_FOUND without the UV set; an option out of its range;
+ * SUNDER_LIMIT_EXCEEDED. */
+SUNDER_C_API sunder_status sunder_begin_wound_mask(sunder_scene scene, sunder_instance instance,
+                                                   uint32_t mesh,
+                                                   const sunder_wound_mask_options* options);
+/* A view, valid until the next call that changes the instance: upload the rectangle of it. Fails:
+ * SUNDER_NOT_FOUND without sunder_begin_wound_mask(). */
+SUNDER_C_API sunder_status sunder_get_wound_mask(sunder_scene scene, sunder_instance instance,
+                                                 uint32_t mesh, sunder_wound_mask* mask);
+/* Drops it, if there is one. */
+SUNDER_C_API sunder_status sunder_end_wound_mask(sunder_scene scene, sunder_instance instance,
+                                                 uint32_t mesh);
+
 /* ---- Tissue ---- */
 
 typedef struct sunder_tissue_info {

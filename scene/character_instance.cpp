@@ -236,6 +236,24 @@ Result<WeightReport> CharacterInstance::swap_in(const RefitJob& job, ChangeRecor
       change, [&](ChangeRecord* record) { return job.swap_in(state_->torn->model, record); });
 }
 
+Status CharacterInstance::begin_wound_mask(std::uint32_t mesh, const WoundMaskOptions& options) {
+  const MemoryScope scope(state_->memory);
+  if (Status status = state_->require_torn(); !status) return status;
+  return state_->wound_masks.begin(state_->torn->model, mesh, options);
+}
+
+void CharacterInstance::end_wound_mask(std::uint32_t mesh) { state_->wound_masks.end(mesh); }
+
+Result<CharacterInstance::PaintedWounds> CharacterInstance::wound_mask(std::uint32_t mesh) {
+  const MemoryScope scope(state_->memory);
+  if (!state_->torn)
+    return Status::failure(StatusCode::not_found, mesh, "mesh %u has no wound mask", mesh);
+  const Result<scene::WoundMasks::Taken> taken =
+      state_->wound_masks.take(state_->torn->model, mesh);
+  if (!taken) return taken.error();
+  return PaintedWounds{taken->mask, taken->changed};
+}
+
 Result<CompactMaps> CharacterInstance::compact() {
   const MemoryScope scope(state_->memory);
   State& state = *state_;

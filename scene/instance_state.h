@@ -14,6 +14,7 @@
 #include "scene/drawing/instance_mesh.h"
 #include "scene/drawing/prepared_swap.h"
 #include "scene/torn_parts.h"
+#include "scene/wound_masks.h"
 
 namespace sunder {
 
@@ -40,6 +41,7 @@ struct CharacterInstance::State {
   /// Upper half: a number of this object; lower half: of the last draw() that had something to do.
   std::uint64_t epoch;
   std::optional<scene::BegunOperation> begun;  ///< The newest operation in the background.
+  scene::WoundMasks wound_masks;
   bool needs_draw = false;
   bool is_broken = false;  ///< Memory ran out between two parts, which no longer agree.
 
@@ -60,9 +62,9 @@ struct CharacterInstance::State {
   Status restore_tissue(const SoftTissue& soft, ParticleSet set, const StateArrays& body);
   /// Makes what draw() needs, if it is not there. @throws std::bad_alloc
   Status require_drawn();
-  /// Lets the meshes know.
+  /// Lets the meshes and the wound masks know.
   void note(std::span<const ChangeRecord> changes) noexcept;
-  /// Lets the meshes and the particles know.
+  /// The same, and the particles.
   Status follow(std::span<const ChangeRecord> changes);
   /// Keeps the motion of a piece before its particles vanish. Without memory it is at rest.
   void keep_tissue(const DetachedPiece& piece, PieceTissue& tissue) noexcept;

@@ -7,6 +7,7 @@
 #include <sunder/tear/operation_job.h>
 #include <sunder/tear/refit_job.h>
 #include <sunder/tear/tear_stroke.h>
+#include <sunder/tear/wound_mask.h>
 
 #include <cstdint>
 #include <memory>
@@ -166,6 +167,22 @@ class SUNDER_API CharacterInstance {
   /// Empty before the first draw(), and between an operation that changed the mesh and the next
   /// draw(). O(changes since then).
   [[nodiscard]] PosedMesh mesh(std::uint32_t mesh, std::uint64_t seen = 0);
+
+  /// Keeps the wounds of a mesh in a texture from now on: every operation, undo and redo paints
+  /// what it changes. Called again, it begins anew. compact() ends it, and snapshots do not keep
+  /// it.
+  /// @return as WoundMask::create().
+  Status begin_wound_mask(std::uint32_t mesh, const WoundMaskOptions& options = {});
+  /// Drops it, if there is one.
+  void end_wound_mask(std::uint32_t mesh);
+  /// A mask, and the texels that may have changed since the last call.
+  struct PaintedWounds {
+    const WoundMask* mask = nullptr;  ///< Valid until the next call that is not const.
+    TexelRectangle changed;
+  };
+  /// @return not_found: the mesh has none; limit_exceeded: out of memory. O(1), but after an
+  ///         operation for which memory did not suffice, which is made up for.
+  Result<PaintedWounds> wound_mask(std::uint32_t mesh);
 
   [[nodiscard]] const std::shared_ptr<const CharacterAsset>& asset() const;
   /// The character in its current state: that of the asset, or of model().

@@ -170,6 +170,17 @@ class Origins:
     points: np.ndarray
 
 
+@dataclass(frozen=True)
+class WoundMask:
+    """distances: (height, width), metres along the surface from the nearest lip, at most the reach; negative where operations removed
+    the skin. changed: rows and columns that may have changed since the last call, as two slices. The counts are of texels of stacked
+    charts, and of triangles that the texture cannot show."""
+    distances: np.ndarray
+    changed: tuple
+    overlapping_texels: int
+    unpainted_triangles: int
+
+
 class Instance:
     """A character in a scene; made by Scene.spawn(). Operations are submitted, and applied by the next Scene.update() in the pose
     that the instance then has. Places are in model space, in metres."""
@@ -352,6 +363,17 @@ class Instance:
             yield PosedMesh(view(raw.positions, n, 3), view(raw.normals, n, 3), view(raw.tangents, n, 4), triangles[drawn], raw.epoch)
         finally:
             self.scene._borrowed -= 1
+
+    def begin_wound_mask(self, mesh: int = 0, **options) -> None:
+        """Keeps the wounds of a mesh in its texture from now on. Options: width, height, uv_set, dilation, reach."""
+        self._call('begin_wound_mask', mesh, ctypes.byref(abi.new('wound_mask_options', **options)))
+
+    def wound_mask(self, mesh: int = 0) -> WoundMask:
+        """The wounds in the texture, copied, and what may have changed since the last call."""
+        raw = abi.new('wound_mask')
+        self._call('get_wound_mask', mesh, ctypes.byref(raw))
+        changed = (slice(raw.top, raw.top + raw.changed_height), slice(raw.left, raw.left + raw.changed_width))
+        return WoundMask(copy(raw.distances, raw.height, raw.width), changed, raw.overlapping_texels, raw.unpainted_triangles)
 
     def save(self, influences: Optional[int] = 0) -> bytes:
         """The torn character as a GLB: the source document with the meshes that were torn."""
