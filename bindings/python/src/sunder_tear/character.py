@@ -140,8 +140,8 @@ class Character:
     @staticmethod
     def from_arrays(bones: list, skins: list, meshes: list, rest_morph_weights=None, name: str = '') -> Character:
         """A character of one's own arrays, which are copied: as `bones`, `skins` and `meshes` of another give them.
-        rest_morph_weights: of the targets of all meshes, one mesh after the other; None: zeros. Raises ValueError for arrays of another shape, SunderError for what is no valid model (an index out of range,
-        weights that do not sum to one)."""
+        rest_morph_weights: of the targets of all meshes, one mesh after the other; None: zeros. Raises ValueError for arrays of another
+        shape, SunderError for what is no valid model (an index out of range, weights that do not sum to one)."""
         structs = CharacterStructs(name, bones, skins, meshes, rest_morph_weights)
         return Character(abi.output('create_character', ctypes.byref(structs.data)))
 
