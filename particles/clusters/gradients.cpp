@@ -1,7 +1,7 @@
 #include "particles/clusters/gradients.h"
 
 #include <algorithm>
-#include <optional>
+#include <utility>
 
 #include "core/internal/ordered.h"
 #include "core/internal/prefetch.h"
@@ -20,7 +20,7 @@ class FaceGradients {
   struct Corner {
     std::array<std::uint8_t, 4> sums;
     std::array<double, 4> weights;
-    std::size_t count = 0;
+    std::size_t count;
   };
 
   void add_face(const Vec3d& normal, double area) {
@@ -29,14 +29,13 @@ class FaceGradients {
     if (face_count_ == kFacesAtOnce) add_planes();
     faces_[face_count_++] = {normal, area};
   }
-  [[nodiscard]] Corner find(const ParticleInfluences& influences) {
-    Corner corner;
+  void find(const ParticleInfluences& influences, Corner& corner) {
+    corner.count = 0;
     for (std::size_t i = 0; i < 4 && influences.weights[i] > 0; ++i) {
       corner.sums[i] = sum_of(influences.particles[i]);
       corner.weights[i] = static_cast<double>(influences.weights[i]);
       ++corner.count;
     }
-    return corner;
   }
   /// The part of a corner of a face: its weights times a vector.
   void add(const Corner& corner, const Vec3d& per_weight) {
@@ -155,38 +154,45 @@ class FaceGradients {
 
 /// The other end of an edge of the point.
 struct Neighbour {
-  Index point;
+  Index point = kNone;
+  bool is_found = false;  ///< Whether a face needed its sums.
   Vec3d edge;
-  std::optional<FaceGradients::Corner> corner;  ///< Once a face needs it.
+  FaceGradients::Corner corner;
 };
 
 ParticleGradients gradients_at(const Surface& surface, const Structure& structure, Index point) {
   if (surface.point_corner[point] == kNone) return {};
   const std::vector<ParticleInfluences>& influences = structure.points.influences;
   const Vec3d at = structure.points.positions[point].cast<double>();
-  const auto neighbour = [&](Index of) {
-    return Neighbour{of, structure.points.positions[of].cast<double>() - at, {}};
-  };
   FaceGradients faces;
-  std::optional<FaceGradients::Corner> own;
-  Neighbour b, c{kNone, Vec3d::Zero(), {}};
+  const auto go_to = [&](Index of, Neighbour& neighbour) {
+    neighbour.point = of;
+    neighbour.is_found = false;
+    neighbour.edge = structure.points.positions[of].cast<double>() - at;
+  };
+  const auto find = [&](Neighbour& neighbour) {
+    if (!neighbour.is_found) faces.find(influences[neighbour.point], neighbour.corner);
+    neighbour.is_found = true;
+  };
+  Neighbour own, one, other;
+  go_to(point, own);
+  Neighbour *b = &one, *c = &other;
   surface.for_each_in_fan(surface.point_corner[point], [&](Index corner) {
     // The last point of a face is the first one of the next.
     const Index first = surface.corner_point[Surface::next(corner)];
-    b = c.point == first ? c : neighbour(first);
-    c = neighbour(surface.corner_point[Surface::previous(corner)]);
-    const Vec3d twice = b.edge.cross(c.edge);
+    std::swap(b, c);
+    if (b->point != first) go_to(first, *b);
+    go_to(surface.corner_point[Surface::previous(corner)], *c);
+    const Vec3d twice = b->edge.cross(c->edge);
     const double length = norm(twice);
     if (!(length > 0)) return;
     const Vec3d normal = twice / length;
     faces.add_face(normal, length);
-    if (!own) own = faces.find(influences[point]);
-    if (!b.corner) b.corner = faces.find(influences[b.point]);
-    c.corner = faces.find(influences[c.point]);
+    for (Neighbour* const of : {&own, b, c}) find(*of);
     // normal x (rise_c to_b - rise_b to_c), times twice the area, corner by corner.
-    faces.add(*own, normal.cross(c.edge - b.edge));
-    faces.add(*b.corner, -normal.cross(c.edge));
-    faces.add(*c.corner, normal.cross(b.edge));
+    faces.add(own.corner, normal.cross(c->edge - b->edge));
+    faces.add(b->corner, -normal.cross(c->edge));
+    faces.add(c->corner, normal.cross(b->edge));
   });
   return faces.means(influences[point]);
 }
