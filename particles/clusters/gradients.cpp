@@ -1,6 +1,7 @@
 #include "particles/clusters/gradients.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/internal/ordered.h"
 #include "core/internal/prefetch.h"
@@ -15,16 +16,31 @@ namespace {
 /// plane; there the gradient is the one whose parts in these planes agree best with the faces'.
 class FaceGradients {
  public:
+  /// The sums of the particles of one corner, which its faces share.
+  struct Corner {
+    std::array<std::uint8_t, 4> sums;
+    std::array<double, 4> weights;
+    std::size_t count;
+  };
+
   void add_face(const Vec3d& normal, double area) {
     area_ += area;
     normals_ += area * normal;
-    for (Eigen::Index k = 0; k < 3; ++k) planes_.col(k) -= area * normal[k] * normal;
+    if (face_count_ == kFacesAtOnce) add_planes();
+    faces_[face_count_++] = {normal, area};
+  }
+  void find(const ParticleInfluences& influences, Corner& corner) {
+    corner.count = 0;
+    for (std::size_t i = 0; i < 4 && influences.weights[i] > 0; ++i) {
+      corner.sums[i] = sum_of(influences.particles[i]);
+      corner.weights[i] = static_cast<double>(influences.weights[i]);
+      ++corner.count;
+    }
   }
   /// The part of a corner of a face: its weights times a vector.
-  void add_corner(const ParticleInfluences& corner, const Vec3d& per_weight) {
-    for (std::size_t i = 0; i < 4 && corner.weights[i] > 0; ++i)
-      if (Vec3d* sum = sum_of(corner.particles[i]))
-        *sum += static_cast<double>(corner.weights[i]) * per_weight;
+  void add(const Corner& corner, const Vec3d& per_weight) {
+    const Vec4d by(per_weight.x(), per_weight.y(), per_weight.z(), 0);
+    for (std::size_t i = 0; i < corner.count; ++i) sums_[corner.sums[i]] += corner.weights[i] * by;
   }
 
   /// Of the four particles whose weights change most.
@@ -32,92 +48,151 @@ class FaceGradients {
   [[nodiscard]] ParticleGradients means(const ParticleInfluences& own) {
     ParticleGradients gradients;
     if (!(area_ > 0)) return gradients;
-    const std::size_t kept = keep_largest();
-    share_the_rest(own, kept);
+    const std::size_t kept = std::min<std::size_t>(count_, 4);
+    const std::array<std::uint8_t, kMostParticles> order = order_by_size();
+    share_the_rest(own, order, kept);
     const double length = norm(normals_);
     const bool is_creased = length < kCreaseCosine * area_ && length > 0;
-    Mat3d parts = planes_ + area_ * Mat3d::Identity();
-    for (Eigen::Index k = 0; k < 3; ++k)
-      parts.col(k) += kAcrossCrease * area_ * (normals_[k] / (length * length)) * normals_;
+    Mat3d solve = Mat3d::Identity();
+    const bool is_solved = is_creased && invert_parts(length, solve);
     for (std::size_t i = 0; i < kept; ++i) {
-      Vec3d of = sums_[i].gradient / area_;
-      if (is_creased && determinant(parts) > kFlatDeterminant * area_ * area_ * area_)
-        of = multiply(inverse(parts), sums_[i].gradient);
-      gradients.particles[i] = sums_[i].particle;
+      const Vec3d sum = sums_[order[i]].head<3>();
+      const Vec3d of = is_solved ? Vec3d(multiply(solve, sum)) : Vec3d(sum / area_);
+      gradients.particles[i] = particles_[order[i]];
       gradients.of_weights[i] = of.cast<float>();
     }
     return gradients;
   }
 
  private:
-  struct Sum {
-    Index particle;
-    Vec3d gradient;
+  struct Face {
+    Vec3d normal;
+    double area;
   };
   /// Of more particles around one point, the first ones count.
-  static constexpr std::size_t kMostParticles = 64;
+  static constexpr std::uint8_t kMostParticles = 64;
+  static constexpr std::size_t kFacesAtOnce = 16;
 
-  Vec3d* sum_of(Index particle) {
-    for (std::size_t i = 0; i < count_; ++i)
-      if (sums_[i].particle == particle) return &sums_[i].gradient;
-    if (count_ == kMostParticles) return nullptr;
-    sums_[count_] = {particle, Vec3d::Zero()};
-    return &sums_[count_++].gradient;
+  /// @return kMostParticles for one that does not count.
+  std::uint8_t sum_of(Index particle) {
+    for (std::uint8_t i = 0; i < count_; ++i)
+      if (particles_[i] == particle) return i;
+    if (count_ == kMostParticles) {
+      sums_[kMostParticles].setZero();
+      return kMostParticles;
+    }
+    particles_[count_] = particle;
+    sums_[count_].setZero();
+    return count_++;
   }
 
-  /// Moves the four largest to the front; of equal ones the first.
-  std::size_t keep_largest() {
-    if (count_ <= 4) return count_;
-    const auto end = sums_.begin() + static_cast<std::ptrdiff_t>(count_);
-    std::stable_sort(sums_.begin(), end, [](const Sum& a, const Sum& b) {
-      return dot(a.gradient, a.gradient) > dot(b.gradient, b.gradient);
-    });
-    return 4;
+  /// The sums from the largest to the smallest, of equal ones the first. Four need no order.
+  [[nodiscard]] std::array<std::uint8_t, kMostParticles> order_by_size() const {
+    std::array<std::uint8_t, kMostParticles> order;
+    std::array<double, kMostParticles> squares;
+    for (std::uint8_t i = 0; i < count_; ++i) {
+      const double square = count_ > 4 ? squared_norm(Vec3d(sums_[i].head<3>())) : 0;
+      std::uint8_t at = i;
+      for (; at > 0 && squares[at - 1] < square; --at) {
+        squares[at] = squares[at - 1];
+        order[at] = order[at - 1];
+      }
+      squares[at] = square;
+      order[at] = i;
+    }
+    return order;
   }
 
   /// Weights sum to one, so that their gradients cancel, and particles that all move alike turn
   /// nothing: what is left out is given to those that are kept, by their weights at the point.
-  void share_the_rest(const ParticleInfluences& own, std::size_t kept) {
+  void share_the_rest(const ParticleInfluences& own,
+                      const std::array<std::uint8_t, kMostParticles>& order, std::size_t kept) {
     std::array<double, 4> shares = {};
     double whole = 0;
-    Vec3d rest = Vec3d::Zero();
-    for (std::size_t i = kept; i < count_; ++i) rest += sums_[i].gradient;
+    Vec4d rest = Vec4d::Zero();
+    for (std::size_t i = kept; i < count_; ++i) rest += sums_[order[i]];
     for (std::size_t i = 0; i < kept; ++i) {
       for (std::size_t k = 0; k < 4; ++k)
-        if (own.particles[k] == sums_[i].particle && own.weights[k] > 0)
+        if (own.particles[k] == particles_[order[i]] && own.weights[k] > 0)
           shares[i] = static_cast<double>(own.weights[k]);
       whole += shares[i];
     }
     for (std::size_t i = 0; i < kept; ++i)
-      sums_[i].gradient += (whole > 0 ? shares[i] / whole : 1 / static_cast<double>(kept)) * rest;
+      sums_[order[i]] += (whole > 0 ? shares[i] / whole : 1 / static_cast<double>(kept)) * rest;
+  }
+
+  void add_planes() {
+    for (std::size_t i = 0; i < face_count_; ++i) {
+      const auto& [normal, area] = faces_[i];
+      for (Eigen::Index k = 0; k < 3; ++k) planes_.col(k) -= area * normal[k] * normal;
+    }
+    face_count_ = 0;
+  }
+  /// Inverts the map from a gradient to the sum of its parts in the planes of the faces.
+  /// @return false if that does not tell the gradient.
+  [[nodiscard]] bool invert_parts(double length, Mat3d& inverted) {
+    add_planes();
+    Mat3d parts = planes_ + area_ * Mat3d::Identity();
+    for (Eigen::Index k = 0; k < 3; ++k)
+      parts.col(k) += kAcrossCrease * area_ * (normals_[k] / (length * length)) * normals_;
+    if (!(determinant(parts) > kFlatDeterminant * area_ * area_ * area_)) return false;
+    inverted = inverse(parts);
+    return true;
   }
 
   double area_ = 0;
   Vec3d normals_ = Vec3d::Zero();
-  Mat3d planes_ = Mat3d::Zero();  ///< The sum of area (projection to the plane - identity).
-  std::array<Sum, kMostParticles> sums_;
-  std::size_t count_ = 0;
+  Mat3d planes_ = Mat3d::Zero();          ///< The sum of area (projection to the plane - identity).
+  std::array<Face, kFacesAtOnce> faces_;  ///< Those that `planes_` lacks.
+  std::size_t face_count_ = 0;
+  /// Of their four numbers three count; four are added faster. The last sum takes what does not
+  /// count.
+  std::array<Vec4d, kMostParticles + 1> sums_;
+  std::array<Index, kMostParticles> particles_;
+  std::uint8_t count_ = 0;
+};
+
+/// The other end of an edge of the point.
+struct Neighbour {
+  Index point = kNone;
+  bool is_found = false;  ///< Whether a face needed its sums.
+  Vec3d edge;
+  FaceGradients::Corner corner;
 };
 
 ParticleGradients gradients_at(const Surface& surface, const Structure& structure, Index point) {
   if (surface.point_corner[point] == kNone) return {};
   const std::vector<ParticleInfluences>& influences = structure.points.influences;
+  const Vec3d at = structure.points.positions[point].cast<double>();
   FaceGradients faces;
+  const auto go_to = [&](Index of, Neighbour& neighbour) {
+    neighbour.point = of;
+    neighbour.is_found = false;
+    neighbour.edge = structure.points.positions[of].cast<double>() - at;
+  };
+  const auto find = [&](Neighbour& neighbour) {
+    if (!neighbour.is_found) faces.find(influences[neighbour.point], neighbour.corner);
+    neighbour.is_found = true;
+  };
+  Neighbour own, one, other;
+  go_to(point, own);
+  Neighbour *b = &one, *c = &other;
   surface.for_each_in_fan(surface.point_corner[point], [&](Index corner) {
-    const Index b = surface.corner_point[Surface::next(corner)],
-                c = surface.corner_point[Surface::previous(corner)];
-    const Vec3d at = structure.points.positions[point].cast<double>();
-    const Vec3d to_b = structure.points.positions[b].cast<double>() - at,
-                to_c = structure.points.positions[c].cast<double>() - at;
-    const Vec3d twice = to_b.cross(to_c);
+    // The last point of a face is the first one of the next.
+    const Index first = surface.corner_point[Surface::next(corner)];
+    std::swap(b, c);
+    if (b->point != first) go_to(first, *b);
+    go_to(surface.corner_point[Surface::previous(corner)], *c);
+    const Vec3d twice = b->edge.cross(c->edge);
     const double length = norm(twice);
     if (!(length > 0)) return;
     const Vec3d normal = twice / length;
     faces.add_face(normal, length);
+    for (Neighbour* const of : {&own, b, c}) find(*of);
     // normal x (rise_c to_b - rise_b to_c), times twice the area, corner by corner.
-    faces.add_corner(influences[point], normal.cross(to_c - to_b));
-    faces.add_corner(influences[b], -normal.cross(to_c));
-    faces.add_corner(influences[c], normal.cross(to_b));
+    faces.add(own.corner, normal.cross(c->edge - b->edge));
+    faces.add(b->corner, -normal.cross(c->edge));
+    faces.add(c->corner, normal.cross(b->edge));
   });
   return faces.means(influences[point]);
 }

@@ -31,13 +31,19 @@ FacesNearBlades::FacesNearBlades(const Workpiece& work)
       faces_(&work.editor.scratch()),
       boxes_(six_in(work.editor.scratch())),
       is_near_(&work.editor.scratch()),
-      selected_(&work.editor.scratch()) {
+      places_(&work.editor.scratch()),
+      known_(&work.editor.scratch()),
+      selected_(&work.editor.scratch()),
+      crossed_(&work.editor.scratch()) {
   clear();
 }
 
 void FacesNearBlades::clear() {
   faces_.clear();
   is_near_.clear();
+  places_.clear();
+  known_.clear();
+  selected_.clear();
   for (ScratchVector<float>& numbers : boxes_) numbers.clear();
   low_ = Vec3d::Constant(std::numeric_limits<double>::infinity());
   high_ = -low_;
@@ -64,6 +70,7 @@ void FacesNearBlades::collect() {
   work_.posed.for_each_face(
       work_.editor, frame, may_hold, [&](Index face) { add_face(face); }, NewFillings::one_by_one);
   is_near_.resize(faces_.size());
+  places_.assign(faces_.size(), kNone);
 }
 
 FacesNearBlades::Box FacesNearBlades::relative(const Vec3d& low, const Vec3d& high) const {
@@ -112,20 +119,28 @@ void FacesNearBlades::select(std::span<const Blade> blades) {
   }
   compare(relative(low, high));
   selected_.clear();
-  const double size = (high_ - low_).maxCoeff();
   for (std::size_t at = next_near(0); at < faces_.size(); at = next_near(at + 1)) {
-    Selected& face = selected_.emplace_back();
-    face.face = faces_[at];
-    face.corners = posed_corners(work_.editor, work_.posed, face.face);
-    const Vec3d ab = face.corners[1] - face.corners[0], ac = face.corners[2] - face.corners[0];
-    face.normal = ab.cross(ac);
-    const double reach = size + ab.cwiseAbs().maxCoeff() + ac.cwiseAbs().maxCoeff() +
-                         face.corners[0].cwiseAbs().maxCoeff();
-    face.on_plane = kBoxSizes * reach * norm(face.normal);
+    if (places_[at] == kNone) {
+      places_[at] = static_cast<Index>(known_.size());
+      known_.push_back(know(faces_[at]));
+    }
+    selected_.push_back(places_[at]);
   }
 }
 
-bool FacesNearBlades::Selected::is_beside(const Blade& blade) const {
+FacesNearBlades::Known FacesNearBlades::know(Index face) const {
+  Known known;
+  known.face = face;
+  known.corners = posed_corners(work_.editor, work_.posed, face);
+  const Vec3d ab = known.corners[1] - known.corners[0], ac = known.corners[2] - known.corners[0];
+  known.normal = ab.cross(ac);
+  const double reach = (high_ - low_).maxCoeff() + ab.cwiseAbs().maxCoeff() +
+                       ac.cwiseAbs().maxCoeff() + known.corners[0].cwiseAbs().maxCoeff();
+  known.on_plane = kBoxSizes * reach * norm(known.normal);
+  return known;
+}
+
+bool FacesNearBlades::Known::is_beside(const Blade& blade) const {
   const double at_base = dot(normal, Vec3d(blade.base - corners[0])),
                at_tip = dot(normal, Vec3d(blade.tip - corners[0]));
   return (at_base > on_plane && at_tip > on_plane) || (at_base < -on_plane && at_tip < -on_plane);
@@ -133,17 +148,16 @@ bool FacesNearBlades::Selected::is_beside(const Blade& blade) const {
 
 std::optional<SurfaceHit> FacesNearBlades::first_hit(const Blade& blade) {
   const Vec3d direction = blade.tip - blade.base;
-  bool is_any_crossed = false;
-  for (Selected& face : selected_) {
-    face.is_crossed =
-        !face.is_beside(blade) && cross_face(blade.base, direction, face.corners).has_value();
-    is_any_crossed |= face.is_crossed;
+  crossed_.clear();
+  for (const Index place : selected_) {
+    const Known& face = known_[place];
+    if (!face.is_beside(blade) && cross_face(blade.base, direction, face.corners))
+      crossed_.push_back(place);
   }
-  if (!is_any_crossed) return std::nullopt;
+  if (crossed_.empty()) return std::nullopt;
   const BladeSegment segment(blade, {axes_along(direction), frame_origin_});
   NearestHit nearest(segment);
-  for (const Selected& face : selected_)
-    if (face.is_crossed) nearest.meet(face.face, face.corners);
+  for (const Index place : crossed_) nearest.meet(known_[place].face, known_[place].corners);
   return nearest.hit();
 }
 

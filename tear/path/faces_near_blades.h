@@ -35,12 +35,12 @@ class FacesNearBlades {
   /// beside another if one of its numbers is greater than that of the other's opposite.
   using Box = std::array<float, 6>;
 
-  struct Selected {
+  /// A face that was selected once: neighbouring blades select the same ones.
+  struct Known {
     Index face = kNone;
     FaceCorners corners;
-    Vec3d normal;             ///< Of any length.
-    double on_plane = 0;      ///< Products with the normal that rounding may have made.
-    bool is_crossed = false;  ///< By the blade of first_hit().
+    Vec3d normal;         ///< Of any length.
+    double on_plane = 0;  ///< Products with the normal that rounding may have made.
 
     /// Whether a blade is on one side of the plane.
     [[nodiscard]] bool is_beside(const Blade& blade) const;
@@ -52,6 +52,7 @@ class FacesNearBlades {
   void compare(const Box& box);
   /// The first face from `from` on that is near; the number of faces if there is none.
   [[nodiscard]] std::size_t next_near(std::size_t from) const;
+  [[nodiscard]] Known know(Index face) const;
 
   const Workpiece& work_;
   Vec3d frame_origin_;  ///< Of the queries of this operation.
@@ -61,7 +62,10 @@ class FacesNearBlades {
   ScratchVector<Index> faces_;
   std::array<ScratchVector<float>, 6> boxes_;  ///< The numbers of the faces' boxes, one by one.
   ScratchVector<unsigned char> is_near_;       ///< Per face.
-  ScratchVector<Selected> selected_;
+  ScratchVector<Index> places_;                ///< Per face: in known_, or kNone.
+  ScratchVector<Known> known_;
+  ScratchVector<Index> selected_;  ///< Places in known_.
+  ScratchVector<Index> crossed_;   ///< Those that the blade of first_hit() crosses.
 };
 
 }  // namespace sunder::tear
