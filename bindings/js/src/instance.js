@@ -1,5 +1,5 @@
 // One character in a scene.
-import { SUNDER_IN_BACKGROUND, sunder_bore, sunder_collider, sunder_contact, sunder_cut, sunder_detach, sunder_force_tearing_options, sunder_layer_options, sunder_save_options, sunder_stroke_sampling, sunder_tear_options } from '../generated/calls.js';
+import { SUNDER_IN_BACKGROUND, sunder_bore, sunder_collider, sunder_contact, sunder_cut, sunder_detach, sunder_force_tearing_options, sunder_layer_options, sunder_save_options, sunder_stroke_sampling, sunder_tear_options, sunder_wound_mask_options } from '../generated/calls.js';
 import { Hold, Layer, Stroke } from './handles_of_tissue.js';
 import { takeBytes, takeText } from './made_bytes.js';
 import { materialOf } from './materials.js';
@@ -134,6 +134,16 @@ export class Instance {
   source(index = 0) {
     const { memory } = this.#calls, mesh = this.#call('sunder_get_instance_mesh', index);
     return new MeshData(memory, mesh, this.#validity());
+  }
+  /** Keeps the wounds of a mesh in its texture from now on. @param options  width, height, uvSet, dilation, reach */
+  beginWoundMask(options = {}, index = 0) { this.#change('sunder_begin_wound_mask', index, fieldsOf(sunder_wound_mask_options, options)); }
+  endWoundMask(index = 0) { this.#change('sunder_end_wound_mask', index); }
+  /** Distances to the nearest lip along the surface, row by row from the top, and the rectangle that changed since the last call. */
+  woundMask(index = 0) {
+    const { left, top, changed_width, changed_height, distances, ...mask } = this.#call('sunder_get_wound_mask', index);
+    return {
+      ...namesOf(mask), changed: { left, top, width: changed_width, height: changed_height },
+      distances: this.#calls.memory.viewOf(Float32Array, distances, mask.width * mask.height) };
   }
   #validity() {
     const scene = this.#scene, version = scene.version;

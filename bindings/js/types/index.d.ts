@@ -214,6 +214,15 @@ export interface ValidationReport {
   deviations: Float32Array; bounds: Float32Array;
 }
 
+/** The wounds of a mesh in its texture: metres along the surface from the nearest lip, negative where skin was removed. */
+export interface WoundMask {
+  width: number; height: number; overlappingTexels: number; unpaintedTriangles: number;
+  /** A view until the next update. */
+  distances: Float32Array;
+  /** Texels that may have changed since the last call; none: width 0. */
+  changed: { left: number; top: number; width: number; height: number };
+}
+
 /** One character in a scene. Operations are applied by the next update, in the pose of then. */
 export class Instance {
   private constructor();
@@ -241,6 +250,9 @@ export class Instance {
   readonly matrices: Float64Array;
   mesh(index?: number, seen?: bigint): PosedMesh;
   source(index?: number): MeshData;
+  beginWoundMask(options?: { width?: number; height?: number; uvSet?: number; dilation?: number; reach?: number }, index?: number): void;
+  endWoundMask(index?: number): void;
+  woundMask(index?: number): WoundMask;
   set visible(visible: boolean);
   set screenHeight(pixels: number);
   readonly tissue: { particleCount: number; pointCount: number; isAwake: boolean };
