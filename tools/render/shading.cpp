@@ -177,21 +177,22 @@ bool Shading::look_alike(const std::array<TriangleTree::Hit, TriangleTree::kBund
   const Vec3f shares = shares_of(first.corners, place);
   const Vec3f normal = mean(shares, first.normals).normalized();
   const Vec2f uv = mean(shares, first.uvs);
+  const bool may_show_through = material.alpha == RenderMaterial::Alpha::blended;
   const bool has_image = material.image != nullptr || material.emission_image != nullptr;
   for (std::size_t i = 0; i < hits.size(); ++i) {
     if (hits[i].triangle == kNone) return false;
     const RenderTriangle& other = scene_.triangles[hits[i].triangle];
     if (other.material != first.material || other.has_flesh_inside) return false;
-    if (&other == &first && !has_image) continue;
     const Vec3f other_place = from + hits[i].distance * along[i];
     const Vec3f other_shares = shares_of(other.corners, other_place);
+    if (may_show_through && are_holed_[hits[i].triangle] && alpha_at(other, other_shares) < kOpaque)
+      return false;
+    if (&other == &first && !has_image) continue;
     const Vec2f other_uv = mean(other_shares, other.uvs);
     if (!(normal.dot(mean(other_shares, other.normals).normalized()) > kSmooth) ||
         !(std::abs(normal.dot(other_place - place)) < reach) ||
         !are_within_texel(material.image, uv, other_uv) ||
-        !are_within_texel(material.emission_image, uv, other_uv) ||
-        (material.alpha == RenderMaterial::Alpha::blended && are_holed_[hits[i].triangle] &&
-         alpha_at(other, other_shares) < kOpaque))
+        !are_within_texel(material.emission_image, uv, other_uv))
       return false;
   }
   return true;
