@@ -239,17 +239,24 @@ Result<WeightReport> CharacterInstance::swap_in(const RefitJob& job, ChangeRecor
 Status CharacterInstance::begin_wound_mask(std::uint32_t mesh, const WoundMaskOptions& options) {
   const MemoryScope scope(state_->memory);
   if (Status status = state_->require_torn(); !status) return status;
-  return state_->wound_masks.begin(state_->torn->model, mesh, options);
+  try {
+    if (!state_->wound_masks) state_->wound_masks = std::make_unique<scene::WoundMasks>();
+  } catch (const std::bad_alloc&) {
+    return Status::failure(StatusCode::limit_exceeded, mesh, "out of memory");
+  }
+  return state_->wound_masks->begin(state_->torn->model, mesh, options);
 }
 
-void CharacterInstance::end_wound_mask(std::uint32_t mesh) { state_->wound_masks.end(mesh); }
+void CharacterInstance::end_wound_mask(std::uint32_t mesh) {
+  if (state_->wound_masks) state_->wound_masks->end(mesh);
+}
 
 Result<CharacterInstance::PaintedWounds> CharacterInstance::wound_mask(std::uint32_t mesh) {
   const MemoryScope scope(state_->memory);
-  if (!state_->torn)
+  if (!state_->torn || !state_->wound_masks)
     return Status::failure(StatusCode::not_found, mesh, "mesh %u has no wound mask", mesh);
   const Result<scene::WoundMasks::Taken> taken =
-      state_->wound_masks.take(state_->torn->model, mesh);
+      state_->wound_masks->take(state_->torn->model, mesh);
   if (!taken) return taken.error();
   return PaintedWounds{taken->mask, taken->changed};
 }

@@ -87,7 +87,7 @@ Status CharacterInstance::State::require_drawn() {
 }
 
 void CharacterInstance::State::note(std::span<const ChangeRecord> changes) noexcept {
-  wound_masks.follow(torn->model, changes);
+  if (wound_masks) wound_masks->follow(torn->model, changes);
   for (const ChangeRecord& change : changes)
     for (const MeshChange& of_mesh : change.meshes) {
       needs_draw = true;

@@ -40,8 +40,8 @@ struct CharacterInstance::State {
   ModelPose pose;
   /// Upper half: a number of this object; lower half: of the last draw() that had something to do.
   std::uint64_t epoch;
-  std::optional<scene::BegunOperation> begun;  ///< The newest operation in the background.
-  scene::WoundMasks wound_masks;
+  std::optional<scene::BegunOperation> begun;      ///< The newest operation in the background.
+  std::unique_ptr<scene::WoundMasks> wound_masks;  ///< Null before the first one begins.
   bool needs_draw = false;
   bool is_broken = false;  ///< Memory ran out between two parts, which no longer agree.
 

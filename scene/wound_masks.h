@@ -19,7 +19,6 @@ class WoundMasks {
   /// @return as WoundMask::create().
   Status begin(const TornModel& model, Index mesh, const WoundMaskOptions& options);
   void end(Index mesh) noexcept { masks_.erase(mesh); }
-  void clear() noexcept { masks_.clear(); }
   /// A mask that memory does not suffice for is painted anew when it is taken.
   void follow(const TornModel& model, std::span<const ChangeRecord> changes) noexcept;
   /// @return not_found: the mesh has none; limit_exceeded: out of memory.
