@@ -57,7 +57,9 @@ ExitCode open_lips_of_run(TearRun& run) {
 Result<WrittenModel> written_model(const TearRun& run) {
   const Character& closed = run.certified ? run.certified->character : run.model.character();
   const bool is_open = run.opening && run.opening->widest_gap > 0;
-  if (!is_open && !has_fillings(run.model))
+  const bool gets_flesh =
+      run.request.flesh.use == FleshOption::Use::flesh && has_fillings(run.model);
+  if (!is_open && !gets_flesh)
     return WrittenModel{std::shared_ptr<const Character>(std::shared_ptr<void>(), &closed), {}};
   const Result<FleshMaterials> flesh = FleshMaterials::create(run);
   if (!flesh) return flesh.error();
