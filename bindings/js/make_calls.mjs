@@ -34,6 +34,7 @@ function placed(type, value) {
   const to = pointee(type);
   if (type === 'const char*') return `m.string(${value})`;
   if (structs.has(to)) return `m.structs(${to}, ${value})`;
+  if (to === 'const char* const') return `m.strings(${value})`;
   if (to.endsWith('* const')) return `m.arrays(${ARRAYS[pointee(to.replace(/ const$/, ''))]}, ${value})`;
   if (ARRAYS[plain(to)]) return `m.array(${ARRAYS[plain(to)]}, ${value})`;
   return value;  // an address

@@ -31,10 +31,7 @@ class Derivation {
     for (Index p = 0; p < points_.count(); ++p) join(p, points_.slabs[p]);
     for (const Change& change : structure_.tears.done)
       change.changed_points.for_each([&](const Change::OfPoint& of) { join(of.point, of.slab); });
-    for (std::vector<Index>& joined : structure_.members.joined) {
-      std::sort(joined.begin(), joined.end());
-      joined.erase(std::unique(joined.begin(), joined.end()), joined.end());
-    }
+    for (std::vector<Index>& joined : structure_.members.joined) MemberLists::drop_repeated(joined);
   }
 
  private:

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <memory>
 
 #include "particles/clusters/change.h"
@@ -35,6 +36,22 @@ struct MemberLists {
   std::shared_ptr<OfDecomposition> decomposed = std::make_shared<OfDecomposition>();
   /// Per particle: members that joined later. Members of both lists may have left since.
   std::vector<std::vector<Index>> joined;
+
+  /// Appends to `joined`. A list that is full loses what it has twice, so that operations that are
+  /// undone again and again do not let it grow.
+  void join(Index particle, Index point) {
+    std::vector<Index>& list = joined[particle];
+    if (list.size() == list.capacity()) {
+      drop_repeated(list);
+      // Room for as many again, so that not every call sorts.
+      if (2 * list.size() > list.capacity()) list.reserve(2 * list.capacity());
+    }
+    list.push_back(point);
+  }
+  static void drop_repeated(std::vector<Index>& list) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+  }
 };
 
 /// The followed operations. Each is a tear, whose number is the index of its change in `done`.

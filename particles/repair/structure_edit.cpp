@@ -131,7 +131,7 @@ void StructureEdit::count_members(Index point, std::span<const ParticleMembershi
     Particle& of = change_particle(particle);
     of.member_count = static_cast<Index>(static_cast<std::int64_t>(of.member_count) + sign);
     arrays_.counted.push_back({particle, point, sign});
-    if (sign > 0) structure_.members.joined[particle].push_back(point);
+    if (sign > 0) structure_.members.join(particle, point);
   };
   std::size_t b = 0, n = 0;
   while (b < before.size() || n < now.size()) {

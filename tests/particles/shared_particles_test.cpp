@@ -152,6 +152,27 @@ TEST(shared_particles, cost_nothing_until_they_are_torn) {
   EXPECT_GT(instance.set->memory_bytes(), 100u * instance.set->point_count());
 }
 
+TEST(shared_particles, take_no_more_memory_for_tears_that_are_undone) {
+  const Shared shared(test::make_bumpy_ball(1000));
+  Instance instance(shared.character, shared.asset, shared.pose);
+  Random random(3);
+  const auto tear_and_undo = [&] {
+    Random again = random;  // the same tear each time
+    ChangeRecord change;
+    ASSERT_TRUE(
+        test::play(*instance.model, test::random_tear(*instance.model, again, true), &change));
+    ASSERT_TRUE(instance.set->follow(*instance.model, {&change, 1}));
+    instance.set->settle(*instance.model, 1000);
+    if (instance.model->undo_count() == 0) return;
+    ASSERT_TRUE(instance.model->undo(&change));
+    ASSERT_TRUE(instance.set->follow(*instance.model, {&change, 1}));
+  };
+  for (int i = 0; i < 50; ++i) tear_and_undo();
+  const std::size_t before = instance.set->memory_bytes();
+  for (int i = 0; i < 1000; ++i) tear_and_undo();
+  EXPECT_LE(instance.set->memory_bytes(), before + before / 100);
+}
+
 TEST(shared_particles, refuse_other_models) {
   const Shared shared(test::make_sheet(6)), other(test::make_sheet(7));
   const TornModel model = std::move(*TornModel::create(other.character));

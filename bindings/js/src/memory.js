@@ -47,6 +47,7 @@ export class Memory {
     this.viewOf(Type, at, from.length).set(from);
     return at;
   }
+  strings(values) { return this.array(Uint32Array, values?.map?.((one) => this.string(one)) ?? values); }
   arrays(Type, values) { return this.array(Uint32Array, values?.map?.((one) => this.array(Type, one)) ?? values); }
 
   /** Text or its bytes, ended by a zero. */
