@@ -74,7 +74,8 @@ class Shading {
  private:
   /// Texture coordinates of flesh that is no wound of its own.
   [[nodiscard]] Vec2f inner_flesh(const Vec3f& place) const;
-  /// Of the color of a place, given by the shares of a triangle's corners.
+  /// The alpha of a triangle at a place.
+  /// @param shares  of its three corners at that place; sum 1.
   [[nodiscard]] float alpha_at(const RenderTriangle& triangle, const Vec3f& shares) const;
   [[nodiscard]] bool lets_pass(Index triangle, const Vec3f& shares, TriangleTree::Ray ray) const;
   [[nodiscard]] TriangleTree::Holes holes() const;

@@ -1,12 +1,11 @@
 """The operators of the add-on."""
 import bpy
-import numpy as np
 from bpy.props import BoolProperty, EnumProperty, FloatProperty
 from mathutils import Vector
 
 from .library import sunder_tear
-from .read_object import Unsupported, read_object
-from .strokes import blades_along, drawn_strokes
+from .read_object import Unsupported, deforming_modifier, read_object
+from .strokes import blades_along, drawn_strokes, mean_scale
 from .write_object import write_object
 
 WOUND = 'Wound'
@@ -72,7 +71,7 @@ def _wound_material():
 
 def _local(obj, length):
     """A length of the world in the units of the object."""
-    scale = abs(obj.matrix_world.to_3x3().determinant()) ** (1 / 3)
+    scale = mean_scale(obj)
     return length / scale if scale > 0 else length
 
 
@@ -127,7 +126,7 @@ class SUNDER_OT_cut(_Operator):
         return self.caps
 
     def submit(self, context, obj, depsgraph, instance, fill):
-        armature = next(modifier.object for modifier in obj.modifiers if modifier.type == 'ARMATURE' and modifier.object)
+        armature = deforming_modifier(obj).object
         if self.bone:
             bone = armature.evaluated_get(depsgraph).pose.bones.get(self.bone)
             if bone is None:

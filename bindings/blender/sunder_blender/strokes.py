@@ -35,7 +35,7 @@ def blades_along(obj, depsgraph, stroke, depth, towards_eye=None):
     to_object = obj.matrix_world.inverted()
     points = [to_object @ point for point in stroke]
     evaluated = obj.evaluated_get(depsgraph)
-    size = max(max(obj.dimensions) / max(_mean_scale(obj), 1e-30), 1e-30)
+    size = max(max(obj.dimensions) / max(mean_scale(obj), 1e-30), 1e-30)
     if towards_eye is None:
         directions = []
         for point in points:
@@ -58,5 +58,6 @@ def _smoothed(directions):
     return [mean.normalized() if mean.length > 1e-6 else Vector((0, 0, 1))] * len(directions)
 
 
-def _mean_scale(obj):
+def mean_scale(obj):
+    """How many units of the world one unit of the object is."""
     return abs(obj.matrix_world.to_3x3().determinant()) ** (1 / 3)

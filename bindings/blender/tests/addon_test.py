@@ -286,6 +286,17 @@ def test_cut_by_the_cursor(model):
     expect_poses_alike(body)
 
 
+def test_cut_across_a_bone(model):
+    bones = [bone.name for bone in read_object(load(model)).armature.data.bones]
+    for name in bones[:12]:
+        body = load(model)
+        before = snapshot(body)
+        if bpy.ops.object.sunder_cut(bone=name, share=0.5) == {'FINISHED'}:
+            expect_kept(before, snapshot(body), 0.3)
+            return expect_poses_alike(body)
+    raise AssertionError('no bone was cut')
+
+
 def test_drill_at_the_cursor(model):
     body = load(model)
     reach = annotate(body)
