@@ -17,6 +17,7 @@
 #include "tools/render/lighting.h"
 #include "tools/render/palette.h"
 #include "tools/render/png_file.h"
+#include "tools/render/redness.h"
 #include "tools/render/texture.h"
 #include "tools/render/trace.h"
 #include "tools/render/triangle_tree.h"
@@ -403,6 +404,37 @@ TEST(Trace, textures_finer_than_pixels_are_averaged) {
     pure += color[0] == 0 || color[2] == 0 ? 1 : 0;
   }
   EXPECT_EQ(pure, 0);
+}
+
+/// Cut into small pieces, a lip reddens the same places.
+TEST(Redness, long_lips_redden_what_their_pieces_redden) {
+  test::Random random(7);
+  const auto place = [&random] {
+    return Vec3f(static_cast<float>(random.uniform(-1, 1)),
+                 static_cast<float>(random.uniform(-1, 1)),
+                 static_cast<float>(random.uniform(-1, 1)));
+  };
+  std::vector<Redness::Segment> lips, pieces;
+  constexpr int kPieces = 200;
+  for (int i = 0; i < 5; ++i) {
+    lips.push_back({place(), place()});
+    const Vec3f along = (lips.back()[1] - lips.back()[0]) / kPieces;
+    for (int k = 0; k < kPieces; ++k)
+      pieces.push_back({lips.back()[0] + static_cast<float>(k) * along,
+                        lips.back()[0] + static_cast<float>(k + 1) * along});
+  }
+  constexpr float kReach = 0.02f;
+  const Redness of_lips(lips, kReach), of_pieces(pieces, kReach);
+  const Vec3f skin(0.8f, 0.6f, 0.5f);
+  int red = 0;
+  for (int i = 0; i < 5000; ++i) {
+    const Redness::Segment& near = lips[static_cast<std::size_t>(i) % lips.size()];
+    const Vec3f at = near[0] + static_cast<float>(random.uniform(0, 1)) * (near[1] - near[0]) +
+                     kReach * place();  // Within 1.8 reaches.
+    EXPECT_LT((of_lips.reddened(skin, at) - of_pieces.reddened(skin, at)).norm(), 1e-3f);
+    red += of_lips.reddened(skin, at) != skin ? 1 : 0;
+  }
+  EXPECT_EQ(red, 5000);
 }
 
 /// Pixels of one even surface are shaded once, and look for either the sky or the lamp; a surface

@@ -7,7 +7,8 @@
 namespace sunder::tools {
 namespace {
 
-constexpr float kFarthest = 2;  ///< Where it ends, in reaches.
+constexpr float kFarthest = 2;       ///< Where it ends, in reaches.
+constexpr float kMostPieces = 4096;  ///< Of a lip.
 
 std::uint64_t key_of(const std::array<std::int64_t, 3>& cell) {
   std::uint64_t key = 0;
@@ -27,15 +28,26 @@ float squared_distance(const Redness::Segment& segment, const Vec3f& place) {
 
 Redness::Redness(std::span<const Segment> lips, float reach) : lips_(lips), reach_(reach) {
   if (!(reach > 0)) return;
-  const Vec3f margin = Vec3f::Constant(kFarthest * reach);
   for (std::uint32_t i = 0; i < lips.size(); ++i) {
-    const auto least = cell_of(lips[i][0].cwiseMin(lips[i][1]) - margin),
-               greatest = cell_of(lips[i][0].cwiseMax(lips[i][1]) + margin);
-    for (std::int64_t x = least[0]; x <= greatest[0]; ++x)
-      for (std::int64_t y = least[1]; y <= greatest[1]; ++y)
-        for (std::int64_t z = least[2]; z <= greatest[2]; ++z)
-          near_[key_of({x, y, z})].push_back(i);
+    // A long lip crosses few of the cells of its box: it is entered piece by piece.
+    const Vec3f along = lips[i][1] - lips[i][0];
+    const float pieces =
+        std::clamp(std::ceil(along.norm() / (kFarthest * reach)), 1.0f, kMostPieces);
+    for (float piece = 0; piece < pieces; ++piece)
+      add(i, lips[i][0] + piece / pieces * along, lips[i][0] + (piece + 1) / pieces * along);
   }
+}
+
+void Redness::add(std::uint32_t lip, const Vec3f& begin, const Vec3f& end) {
+  const Vec3f margin = Vec3f::Constant(kFarthest * reach_);
+  const auto least = cell_of(begin.cwiseMin(end) - margin),
+             greatest = cell_of(begin.cwiseMax(end) + margin);
+  for (std::int64_t x = least[0]; x <= greatest[0]; ++x)
+    for (std::int64_t y = least[1]; y <= greatest[1]; ++y)
+      for (std::int64_t z = least[2]; z <= greatest[2]; ++z) {
+        std::vector<std::uint32_t>& near = near_[key_of({x, y, z})];
+        if (near.empty() || near.back() != lip) near.push_back(lip);
+      }
 }
 
 std::array<std::int64_t, 3> Redness::cell_of(const Vec3f& place) const {

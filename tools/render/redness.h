@@ -23,6 +23,8 @@ class Redness {
   [[nodiscard]] Vec3f reddened(const Vec3f& color, const Vec3f& place) const;
 
  private:
+  /// Enters a piece of a lip in the cells around it.
+  void add(std::uint32_t lip, const Vec3f& begin, const Vec3f& end);
   [[nodiscard]] std::array<std::int64_t, 3> cell_of(const Vec3f& place) const;
 
   std::span<const Segment> lips_;
