@@ -166,36 +166,36 @@ Shading::Surface Shading::surface_at(const TriangleTree::Hit& hit, const Vec3f& 
   return surface;
 }
 
-bool Shading::look_alike(const std::array<TriangleTree::Hit, TriangleTree::kBundle>& hits,
-                         const Vec3f& from, const std::array<Vec3f, TriangleTree::kBundle>& along,
-                         float reach) const {
-  if (hits[0].triangle == kNone) return false;
-  const RenderTriangle& first = scene_.triangles[hits[0].triangle];
-  const RenderMaterial& material = scene_.materials[first.material];
-  if (material.is_flesh) return false;
-  const Vec3f place = from + hits[0].distance * along[0];
-  const Vec3f shares = shares_of(first.corners, place);
-  const Vec3f normal = mean(shares, first.normals).normalized();
-  const Vec2f uv = mean(shares, first.uvs);
-  const bool may_show_through = material.alpha == RenderMaterial::Alpha::blended;
-  const bool has_image = material.image != nullptr || material.emission_image != nullptr;
-  for (std::size_t i = 0; i < hits.size(); ++i) {
-    if (hits[i].triangle == kNone) return false;
-    const RenderTriangle& other = scene_.triangles[hits[i].triangle];
-    if (other.material != first.material || other.has_flesh_inside) return false;
-    const Vec3f other_place = from + hits[i].distance * along[i];
-    const Vec3f other_shares = shares_of(other.corners, other_place);
-    if (may_show_through && are_holed_[hits[i].triangle] && alpha_at(other, other_shares) < kOpaque)
-      return false;
-    if (&other == &first && !has_image) continue;
-    const Vec2f other_uv = mean(other_shares, other.uvs);
-    if (!(normal.dot(mean(other_shares, other.normals).normalized()) > kSmooth) ||
-        !(std::abs(normal.dot(other_place - place)) < reach) ||
-        !are_within_texel(material.image, uv, other_uv) ||
-        !are_within_texel(material.emission_image, uv, other_uv))
-      return false;
-  }
-  return true;
+Shading::Glance Shading::glance(const TriangleTree::Hit& hit, const Vec3f& from,
+                                const Vec3f& along) const {
+  Glance glance;
+  glance.hit = hit;
+  if (hit.triangle == kNone) return glance;
+  const RenderTriangle& triangle = scene_.triangles[hit.triangle];
+  const RenderMaterial& material = scene_.materials[triangle.material];
+  glance.place = from + hit.distance * along;
+  const Vec3f shares = shares_of(triangle.corners, glance.place);
+  glance.normal = mean(shares, triangle.normals).normalized();
+  glance.uv = mean(shares, triangle.uvs);
+  glance.stands_alone = material.is_flesh || triangle.has_flesh_inside ||
+                        (material.alpha == RenderMaterial::Alpha::blended &&
+                         are_holed_[hit.triangle] && alpha_at(triangle, shares) < kOpaque);
+  return glance;
+}
+
+bool Shading::look_alike(const Glances& glances, float reach) const {
+  const Glance& first = *glances[0];
+  if (first.hit.triangle == kNone) return false;
+  const Index index = scene_.triangles[first.hit.triangle].material;
+  const RenderMaterial& material = scene_.materials[index];
+  return std::ranges::all_of(glances, [&](const Glance* other) {
+    return other->hit.triangle != kNone && !other->stands_alone &&
+           scene_.triangles[other->hit.triangle].material == index &&
+           first.normal.dot(other->normal) > kSmooth &&
+           std::abs(first.normal.dot(other->place - first.place)) < reach &&
+           are_within_texel(material.image, first.uv, other->uv) &&
+           are_within_texel(material.emission_image, first.uv, other->uv);
+  });
 }
 
 Shading::Light Shading::light_at(const Vec3f& start, const Vec3f& normal, const Vec3f& flat,

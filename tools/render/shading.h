@@ -56,14 +56,20 @@ class Shading {
   }
   [[nodiscard]] Surface surface_at(const TriangleTree::Hit& hit, const Vec3f& from,
                                    const Vec3f& along) const;
-  /// Whether one of the surfaces on rays from one place stands for all: they are opaque, of one
-  /// material and smooth, and at most a texel wide.
-  /// @param hits   the first surfaces on the rays.
+  /// What a ray meets first, as far as neighbours are compared.
+  struct Glance {
+    TriangleTree::Hit hit;
+    Vec3f place = Vec3f::Zero(), normal = Vec3f::UnitY();
+    Vec2f uv = Vec2f::Zero();
+    bool stands_alone = false;  ///< Flesh, or what shows through: like no other place.
+  };
+  using Glances = std::array<const Glance*, 4>;
+  [[nodiscard]] Glance glance(const TriangleTree::Hit& hit, const Vec3f& from,
+                              const Vec3f& along) const;
+  /// Whether one of four neighbours stands for all: they are opaque, of one material and smooth,
+  /// and at most a texel wide.
   /// @param reach  how far places may be off one plane, metres.
-  [[nodiscard]] bool look_alike(const std::array<TriangleTree::Hit, TriangleTree::kBundle>& hits,
-                                const Vec3f& from,
-                                const std::array<Vec3f, TriangleTree::kBundle>& along,
-                                float reach) const;
+  [[nodiscard]] bool look_alike(const Glances& glances, float reach) const;
   /// Looks in directions of the sky, around the normal in z, and of the lamp: at most
   /// kMostDirections of each.
   [[nodiscard]] Light light_at(const Vec3f& start, const Vec3f& normal, const Vec3f& flat,

@@ -54,7 +54,28 @@ const Tile::Pixel& Tile::pixel_at(int x, int y) const {
   return pixels_[static_cast<std::size_t>((y - top_) * (right_ - left_) + x - left_)];
 }
 
+void Tile::find_corners() {
+  corners_.clear();
+  constexpr int kBundle = TriangleTree::kBundle;
+  for (int y = top_; y <= bottom_; ++y)
+    for (int x = left_; x <= right_; x += kBundle) {
+      std::array<Vec3f, kBundle> along;
+      std::array<TriangleTree::Hit, kBundle> hits;
+      const int count = std::min(kBundle, right_ + 1 - x);
+      bool may_show = false;
+      for (int i = 0; i < count; ++i) {
+        along[static_cast<std::size_t>(i)] = view_.along(x + i, y);
+        may_show = may_show || drawn_.coverage.may_show(x + i, y);
+      }
+      for (int i = count; i < kBundle; ++i) along[static_cast<std::size_t>(i)] = along[0];
+      if (may_show) hits = shading_.find(view_.eye, along);
+      for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
+        corners_.push_back(shading_.glance(hits[i], view_.eye, along[i]));
+    }
+}
+
 void Tile::find_surfaces() {
+  find_corners();
   pixels_.clear();
   layers_.clear();
   probes_.clear();
@@ -68,39 +89,61 @@ void Tile::find_surfaces() {
 }
 
 void Tile::see(Pixel& pixel, int x, int y) {
+  const auto width = static_cast<std::size_t>(right_ - left_ + 1);
+  const Shading::Glance* const corner = corners_.data() +
+                                        static_cast<std::size_t>(y - top_) * width +
+                                        static_cast<std::size_t>(x - left_);
+  const Shading::Glances corners = {corner, corner + 1, corner + width, corner + width + 1};
+  pixel.layers.fill(static_cast<std::uint32_t>(layers_.size()));
+  if (shading_.look_alike(corners, kSamePlane * pixel_size() * corner->hit.distance)) {
+    pixel.kind = Kind::even;
+    see_even(pixel, x, y, corners);
+    return;
+  }
+  if (std::ranges::all_of(corners, [](const auto* of) { return of->hit.triangle == kNone; })) {
+    pixel.kind = Kind::empty;
+    see_floor(pixel, x, y, view_.along(x + 0.5, y + 0.5), 0);
+    return;
+  }
   std::array<Vec3f, kSamples> along;
   for (std::size_t sample = 0; sample < kSamples; ++sample)
     along[sample] = view_.along(x + kPlaces[sample].x(), y + kPlaces[sample].y());
-  std::array<TriangleTree::Hit, kSamples> first;
-  if (drawn_.coverage.may_show(x, y)) first = shading_.find(view_.eye, along);
-  pixel.is_even =
-      shading_.look_alike(first, view_.eye, along, kSamePlane * pixel_size() * first[0].distance);
-  if (pixel.is_even) {
-    pixel.layers.fill(static_cast<std::uint32_t>(layers_.size()));
-    add_layer(pixel, x, y, along[0], first[0]);
-    for (std::size_t sample = 0; sample < kSamples; ++sample)
-      pixel.depths[sample] = first[sample].distance;
-    return;
-  }
+  const std::array<TriangleTree::Hit, kSamples> first = shading_.find(view_.eye, along);
   for (std::size_t sample = 0; sample < kSamples; ++sample) {
     pixel.layers[sample] = static_cast<std::uint32_t>(layers_.size());
     see_sample(pixel, x, y, along[sample], sample, first[sample]);
   }
 }
 
-const Tile::Layer& Tile::add_layer(Pixel& pixel, int x, int y, const Vec3f& along,
-                                   const TriangleTree::Hit& hit) {
-  const Shading::Surface surface = shading_.surface_at(hit, view_.eye, along);
-  const Probe probe{
-      surface.place, surface.smooth, {}, kSamePlane * pixel_size() * hit.distance, false};
-  return layers_.emplace_back(
-      Layer{surface, probe_at(pixel, x, y, probe, surface.start, surface.flat), hit.distance});
+void Tile::see_even(Pixel& pixel, int x, int y, const Shading::Glances& corners) {
+  const Shading::Glance& first = *corners[0];
+  const Vec3f along = view_.along(x + 0.5, y + 0.5);
+  // The middle lies in the plane of the first corner, but not nearer or farther than all corners.
+  const auto [nearest, farthest] =
+      std::ranges::minmax(corners, {}, [](const auto* of) { return of->hit.distance; });
+  const float facing = first.normal.dot(along);
+  const float distance = facing < 0 || facing > 0
+                             ? std::clamp(first.normal.dot(first.place - view_.eye) / facing,
+                                          nearest->hit.distance, farthest->hit.distance)
+                             : first.hit.distance;
+  Shading::Surface surface = shading_.surface_at({first.hit.triangle, distance}, view_.eye, along);
+  // Rays begin where the surface was met, never below it.
+  surface.start += first.place - surface.place;
+  add_layer(pixel, x, y, surface, distance);
+}
+
+void Tile::add_layer(Pixel& pixel, int x, int y, const Shading::Surface& surface, float distance) {
+  const Probe probe{surface.place, surface.smooth, {}, kSamePlane * pixel_size() * distance, false};
+  const std::uint32_t index = probe_at(pixel, x, y, probe, surface.start, surface.flat);
+  layers_.push_back({surface, index, distance});
 }
 
 void Tile::see_sample(Pixel& pixel, int x, int y, const Vec3f& along, std::size_t sample,
                       TriangleTree::Hit hit) {
   for (int i = 0; hit.triangle != kNone; ++i) {
-    if (add_layer(pixel, x, y, along, hit).look.color.w() >= Shading::kOpaque) return;
+    const Shading::Surface surface = shading_.surface_at(hit, view_.eye, along);
+    add_layer(pixel, x, y, surface, hit.distance);
+    if (surface.color.w() >= Shading::kOpaque) return;
     if (i + 1 == kMostLayers) break;
     hit = shading_.find(view_.eye, along, hit.distance * 1.00001f);
   }
@@ -133,7 +176,7 @@ std::uint32_t Tile::probe_at(Pixel& pixel, int x, int y, const Probe& wanted, co
   std::span<const Vec3f> sky = lighting_.sky(pattern), lamp = lighting_.lamp(pattern);
   if (wanted.is_floor) {
     sky = sky.first(sky.size() / 2);
-  } else if (pixel.is_even) {
+  } else if (pixel.kind == Kind::even) {
     // One looks at the sky, the next one at the lamp: the pixels beside it see the same surface, or
     // more than one, and then look at both.
     const bool looks_at_sky = (x + y) % 2 == 0;
@@ -169,16 +212,23 @@ void Tile::shade(int x, int y, SampledPart& part) {
   smooth_.clear();
   for (std::uint32_t i = 0; i < pixel.probe_count; ++i)
     smooth_.push_back(mean_light(probes_[pixel.first_probe + i], x, y));
-  if (pixel.is_even) {
-    const Layer& layer = layers_[pixel.layers[0]];
-    part.colors.insert(part.colors.end(), kSamples,
-                       shading_.shown(layer.look, smooth_[layer.probe - pixel.first_probe],
-                                      view_.along(x + 0.5, y + 0.5)));
-    part.depths.insert(part.depths.end(), pixel.depths.begin(), pixel.depths.end());
+  if (pixel.kind == Kind::mixed) {
+    for (std::size_t sample = 0; sample < kSamples; ++sample)
+      shade_sample(pixel, x, y, sample, part.colors.emplace_back(), part.depths.emplace_back());
     return;
   }
-  for (std::size_t sample = 0; sample < kSamples; ++sample)
-    shade_sample(pixel, x, y, sample, part.colors.emplace_back(), part.depths.emplace_back());
+  Vec3f color;
+  float depth = kNowhere;
+  if (pixel.kind == Kind::even) {
+    const Layer& layer = layers_[pixel.layers[0]];
+    color = shading_.shown(layer.look, smooth_[layer.probe - pixel.first_probe],
+                           view_.along(x + 0.5, y + 0.5));
+    depth = layer.depth;
+  } else {
+    color = shade_backdrop(pixel, 0, y + 0.5);
+  }
+  part.colors.insert(part.colors.end(), kSamples, color);
+  part.depths.insert(part.depths.end(), kSamples, depth);
 }
 
 void Tile::shade_sample(const Pixel& pixel, int x, int y, std::size_t sample, Vec3f& color,
@@ -196,15 +246,16 @@ void Tile::shade_sample(const Pixel& pixel, int x, int y, std::size_t sample, Ve
     color += left * alpha * shading_.shown(layer.look, light, along);
     left *= 1 - alpha;
   }
-  if (!(left > 0)) return;
-  Vec3f backdrop = (1 + scene_.backdrop_rise * view_.height(down)) * scene_.backdrop;
-  if (pixel.floor[sample] > 0) {
-    const Shading::Light& light = smooth_[pixel.floor_probe - pixel.first_probe];
-    const float lit =
-        kLampOnFloor * light.share_of_lamp() + (1 - kLampOnFloor) * light.share_of_sky().y();
-    backdrop *= 1 - pixel.floor[sample] * kDarkest * (1 - lit);
-  }
-  color += left * backdrop;
+  if (left > 0) color += left * shade_backdrop(pixel, sample, down);
+}
+
+Vec3f Tile::shade_backdrop(const Pixel& pixel, std::size_t sample, double down) const {
+  const Vec3f backdrop = (1 + scene_.backdrop_rise * view_.height(down)) * scene_.backdrop;
+  if (!(pixel.floor[sample] > 0)) return backdrop;
+  const Shading::Light& light = smooth_[pixel.floor_probe - pixel.first_probe];
+  const float lit =
+      kLampOnFloor * light.share_of_lamp() + (1 - kLampOnFloor) * light.share_of_sky().y();
+  return (1 - pixel.floor[sample] * kDarkest * (1 - lit)) * backdrop;
 }
 
 void Tile::draw(int left, int top, Picture& picture) {

@@ -22,10 +22,11 @@ struct TiledScene {
   Vec3f middle;  ///< Of the scene; the floor is around it.
 };
 
-/// Draws parts of a picture. Rays from the eye find the surfaces in four places of each pixel;
-/// where they find one even surface, it is shaded once. Shadows are looked for once per pixel and
-/// surface, and averaged over the neighbouring pixels of the same surface. For one thread; the
-/// parts do not depend on each other.
+/// Draws parts of a picture. Rays from the eye go through the corners of the pixels; where the four
+/// of a pixel meet one even surface, it is shaded once, and where they meet nothing, the backdrop
+/// is; elsewhere four more rays find surfaces within the pixel. Shadows are looked for once per
+/// pixel and surface, and averaged over the neighbouring pixels of the same surface. For one
+/// thread; the parts do not depend on each other.
 class Tile {
  public:
   static constexpr int kSide = 80;                                ///< Pixels.
@@ -55,26 +56,33 @@ class Tile {
     std::uint32_t probe = 0;
     float depth = 0;
   };
+  enum class Kind : std::uint8_t {
+    mixed,  ///< Its samples see different things.
+    even,   ///< All samples see one layer.
+    empty   ///< All samples see the backdrop.
+  };
   struct Pixel {
     std::uint32_t first_probe = 0, probe_count = 0;
     std::array<std::uint32_t, kSamples + 1> layers = {};  ///< Where those of each sample begin.
-    std::array<float, kSamples> floor = {};   ///< How strong shadows on the backdrop are.
-    std::uint32_t floor_probe = 0;            ///< Where there are some.
-    bool is_even = false;                     ///< All samples see one layer.
-    std::array<float, kSamples> depths = {};  ///< Of that layer.
+    std::array<float, kSamples> floor = {};  ///< How strong shadows on the backdrop are.
+    std::uint32_t floor_probe = 0;           ///< Where there are some.
+    Kind kind = Kind::mixed;
   };
+  /// Looks through the corners of all pixels.
+  void find_corners();
   void find_surfaces();
   void see(Pixel& pixel, int x, int y);
+  void see_even(Pixel& pixel, int x, int y, const Shading::Glances& corners);
   void see_sample(Pixel& pixel, int x, int y, const Vec3f& along, std::size_t sample,
                   TriangleTree::Hit hit);
   /// Adds the layer of a surface.
-  const Layer& add_layer(Pixel& pixel, int x, int y, const Vec3f& along,
-                         const TriangleTree::Hit& hit);
+  void add_layer(Pixel& pixel, int x, int y, const Shading::Surface& surface, float distance);
   void see_floor(Pixel& pixel, int x, int y, const Vec3f& along, std::size_t sample);
   [[nodiscard]] std::uint32_t probe_at(Pixel& pixel, int x, int y, const Probe& wanted,
                                        const Vec3f& start, const Vec3f& flat);
   [[nodiscard]] Shading::Light mean_light(const Probe& probe, int x, int y) const;
   void shade(int x, int y, SampledPart& part);
+  [[nodiscard]] Vec3f shade_backdrop(const Pixel& pixel, std::size_t sample, double down) const;
   void shade_sample(const Pixel& pixel, int x, int y, std::size_t sample, Vec3f& color,
                     float& depth);
 
@@ -88,6 +96,7 @@ class Tile {
   const RenderView& view_;
   const TiledScene& drawn_;
   int left_ = 0, top_ = 0, right_ = 0, bottom_ = 0;  ///< With a border, for the averages.
+  std::vector<Shading::Glance> corners_;  ///< One more per row than pixels, and one more row.
   std::vector<Pixel> pixels_;
   std::vector<Layer> layers_;
   std::vector<Probe> probes_;
