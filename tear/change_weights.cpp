@@ -8,7 +8,7 @@
 #include <new>
 
 #include "core/internal/out_of_memory.h"
-#include "operation/internal/field_ranges.h"
+#include "core/operation/internal/field_ranges.h"
 #include "skinning/internal/character_pose.h"
 #include "tear/model/model_state.h"
 #include "tear/surface/weight_change.h"

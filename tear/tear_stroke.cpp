@@ -6,7 +6,7 @@
 
 #include "core/internal/ordered.h"
 #include "core/internal/out_of_memory.h"
-#include "operation/internal/field_ranges.h"
+#include "core/operation/internal/field_ranges.h"
 #include "skinning/internal/same_bits.h"
 #include "tear/geometry/tolerances.h"
 #include "tear/model/model_state.h"

@@ -2,8 +2,8 @@
 
 #include <utility>
 
+#include "core/operation/internal/describe_operations.h"
 #include "io/operation_log/write_fields.h"
-#include "operation/internal/describe_operations.h"
 
 namespace sunder::operation_log {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/internal/nearest_names.h"
-#include "operation/internal/field_ranges.h"
+#include "core/operation/internal/field_ranges.h"
 
 namespace sunder::operation_log {
 namespace {

@@ -1,5 +1,5 @@
+#include "core/operation/internal/describe_weights.h"
 #include "io/operation_log/read_fields.h"
-#include "operation/internal/describe_weights.h"
 
 namespace sunder::operation_log {
 namespace {

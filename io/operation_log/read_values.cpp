@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "core/internal/find_named.h"
-#include "operation/internal/field_ranges.h"
-#include "operation/internal/view_sides.h"
+#include "core/operation/internal/field_ranges.h"
+#include "core/operation/internal/view_sides.h"
 
 namespace sunder::operation_log {
 namespace {

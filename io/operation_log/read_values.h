@@ -7,9 +7,9 @@
 #include <variant>
 #include <vector>
 
+#include "core/operation/internal/field.h"
+#include "core/operation/internal/names.h"
 #include "io/operation_log/place.h"
-#include "operation/internal/field.h"
-#include "operation/internal/names.h"
 
 namespace sunder::operation_log {
 

@@ -7,9 +7,9 @@
 #include <type_traits>
 #include <vector>
 
+#include "core/operation/internal/field.h"
+#include "core/operation/internal/names.h"
 #include "io/internal/strict_json.h"
-#include "operation/internal/field.h"
-#include "operation/internal/names.h"
 
 namespace sunder::operation_log {
 

@@ -9,8 +9,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "operation/internal/describe_operations.h"
-#include "operation/internal/names.h"
+#include "core/operation/internal/describe_operations.h"
+#include "core/operation/internal/names.h"
 #include "scene/snapshot/pose_memory.h"
 
 namespace sunder::scene {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "operation/internal/field_ranges.h"
+#include "core/operation/internal/field_ranges.h"
 
 namespace sunder::tear {
 

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "core/internal/ordered.h"
-#include "operation/internal/check_ranges.h"
-#include "operation/internal/describe_operations.h"
+#include "core/operation/internal/check_ranges.h"
+#include "core/operation/internal/describe_operations.h"
 #include "tear/detached/released_vertices.h"
 #include "tear/geometry/tolerances.h"
 #include "tear/model/growth.h"

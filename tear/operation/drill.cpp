@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/internal/ordered.h"
-#include "operation/internal/check_ranges.h"
-#include "operation/internal/describe_operations.h"
+#include "core/operation/internal/check_ranges.h"
+#include "core/operation/internal/describe_operations.h"
 #include "tear/filling/bore_wall.h"
 #include "tear/geometry/tolerances.h"
 #include "tear/path/crack_points.h"

@@ -9,7 +9,7 @@
 #include "core/internal/find_named.h"
 #include "core/internal/ordered.h"
 #include "core/internal/rotation_about.h"
-#include "operation/internal/field_ranges.h"
+#include "core/operation/internal/field_ranges.h"
 
 namespace sunder::tear {
 namespace {

@@ -12,6 +12,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "architecture/module_folders.h"
 #include "architecture/source_tree.h"
 
 namespace sunder::test {
@@ -26,17 +27,17 @@ std::set<std::string> word_set_of(const std::string& text) {
   return words;
 }
 
-/// The modules that each folder may include by <sunder/…>, including itself.
+/// The modules that each module may include by <sunder/…>, including itself.
 const std::map<std::string, std::set<std::string>> kMayUse = {
     {"core", {"core"}},
-    {"robot", {"core", "operation", "robot"}},
+    {"robot", {"core", "operation", "weights", "certificate", "robot"}},
     {"operation", {"core", "operation"}},
     {"skinning", {"core", "operation", "skinning"}},
     {"animation", {"core", "operation", "skinning", "animation"}},
     {"weights", {"core", "weights"}},
     {"bodies", {"core", "operation", "skinning", "bodies"}},
     {"coupled_refit", {"core", "weights", "coupled_refit"}},
-    {"certificate", {"core", "robot", "operation", "skinning", "weights", "certificate"}},
+    {"certificate", {"core", "weights", "certificate"}},
     {"tear", {"bodies", "core", "operation", "skinning", "weights", "certificate", "tear"}},
     {"aim", {"bodies", "core", "operation", "skinning", "weights", "certificate", "tear", "aim"}},
     {"particles", {"bodies", "core", "operation", "skinning", "weights", "tear", "particles"}},
@@ -74,7 +75,7 @@ const std::map<std::string, std::set<std::string>> kThirdParties = {
 
 /// Third parties that a single room may include.
 const std::map<std::string, std::set<std::string>> kThirdPartyOfRoom = {
-    {"binding", {"unsupported"}},  // the tree of boxes in Eigen's package
+    {"pipeline/binding", {"unsupported"}},  // the tree of boxes in Eigen's package
     {"io/collada", {"tinyxml2.h"}},
     {"io/compression", {"draco", "meshoptimizer.h"}},
     {"io/fbx", {"zlib.h"}},
@@ -83,14 +84,14 @@ const std::map<std::string, std::set<std::string>> kThirdPartyOfRoom = {
     {"particles/bullet", {"BulletCollision", "BulletDynamics"}},
     {"tools/studio", {"event2", "netinet"}},
     {"tools/render", {"embree3", "jpeglib.h", "png.h", "zlib.h"}},
-    {"validation/match", {"unsupported"}},  // the tree of boxes in Eigen's package
+    {"pipeline/validation/match", {"unsupported"}},  // the tree of boxes in Eigen's package
     {"io/urdf", {"console_bridge", "tinyxml2.h", "urdf_model", "urdf_parser"}},
 };
 
 /// Third parties that a single file may include.
 const std::map<std::string, std::set<std::string>> kThirdPartyOfFile = {
-    {"bodies/qhull.cpp", {"libqhull_r"}},
-    {"coupled_refit/ceres_refit.cpp", {"ceres"}},
+    {"tear/bodies/qhull.cpp", {"libqhull_r"}},
+    {"weights/coupled_refit/ceres_refit.cpp", {"ceres"}},
 };
 
 const std::set<std::string> kMayUseOperatingSystem = {"io", "tools"};
@@ -118,14 +119,14 @@ std::string fault(const std::string& module, const std::string& file, bool is_pu
   if (include.quoted) {
     if (first == "sunder") return "public headers are included as <sunder/…>";
     if (is_public) return "a public header includes a private one";
-    const std::string rest =
-        slash == std::string::npos ? std::string() : include.path.substr(slash + 1);
-    if (first != module && rest.starts_with("internal/") && kMayUse.count(first) != 0)
-      return kMayUse.at(module).count(first) != 0
+    const std::string owner = module_of(include.path);
+    if (owner != module && kMayUse.count(owner) != 0 &&
+        include.path.starts_with(folder_of(owner) + "/internal/"))
+      return kMayUse.at(module).count(owner) != 0
                  ? std::string()
-                 : "the arrow from " + module + " to " + first + " is not allowed";
-    if (slash == std::string::npos || first != module)
-      return "private headers are included as \"" + module + "/…\", from " + module + "/ only";
+                 : "the arrow from " + module + " to " + owner + " is not allowed";
+    if (slash == std::string::npos || owner != module)
+      return "private headers are included as \"" + folder_of(module) + "/…\", from there only";
     return {};
   }
   if (first == "sunder") {
@@ -164,13 +165,14 @@ std::vector<std::string> include_faults(const fs::path& root) {
   const auto check_folder = [&](const std::string& module, const fs::path& folder, bool is_public) {
     for (const fs::path& path : source_files(folder)) {
       const std::string file = name_below(root, path);
+      if (!is_public && module_of(file) != module) continue;  // a module in this one's folder
       for (const Include& include : includes_of(path))
         if (const std::string why = fault(module, file, is_public, include); !why.empty())
           faults.push_back(file + ": " + include.path + ": " + why);
     }
   };
   for (const auto& [module, unused] : kMayUse) {
-    check_folder(module, root / module, false);
+    check_folder(module, root / folder_of(module), false);
     check_folder(module, root / "include" / "sunder" / module, true);
   }
   if (fs::is_directory(root / "include" / "sunder"))
@@ -210,6 +212,46 @@ TEST(Architecture, an_upward_arrow_is_found) {
               ElementsAre(HasSubstr("from tear to io")));
 }
 
+/// The top-level folders that some module of a folder may include.
+std::set<std::string> folders_below(const std::string& folder) {
+  const auto top = [](const std::string& module) {
+    const std::string path = folder_of(module);
+    return path.substr(0, path.find('/'));
+  };
+  std::set<std::string> below;
+  for (const auto& [module, used] : kMayUse)
+    if (top(module) == folder)
+      for (const std::string& other : used) below.insert(top(other));
+  below.erase(folder);
+  return below;
+}
+
+TEST(Architecture, no_folder_is_on_a_circle_of_arrows) {
+  for (const auto& [module, unused] : kMayUse) {
+    const std::string path = folder_of(module), start = path.substr(0, path.find('/'));
+    std::set<std::string> reached;
+    std::vector<std::string> open = {start};
+    while (!open.empty()) {
+      const std::string folder = open.back();
+      open.pop_back();
+      for (const std::string& next : folders_below(folder))
+        if (reached.insert(next).second) open.push_back(next);
+    }
+    EXPECT_FALSE(reached.contains(start)) << start;
+  }
+}
+
+TEST(Architecture, a_module_within_the_folder_of_another_has_arrows_of_its_own) {
+  EXPECT_THAT(faults_of("tear/bodies/a.cpp", "#include <sunder/tear/topology.h>"),
+              ElementsAre(HasSubstr("from bodies to tear")));
+  EXPECT_THAT(faults_of("tear/a.cpp", "#include \"tear/bodies/hull.h\""),
+              ElementsAre(HasSubstr("private headers")));
+  EXPECT_THAT(faults_of("tear/bodies/a.cpp", "#include \"tear/bodies/hull.h\""), IsEmpty());
+  EXPECT_THAT(faults_of("scene/a.cpp", "#include \"core/operation/internal/fields.h\""), IsEmpty());
+  EXPECT_THAT(faults_of("weights/a.cpp", "#include \"core/operation/internal/fields.h\""),
+              ElementsAre(HasSubstr("from weights to operation")));
+}
+
 TEST(Architecture, a_third_party_in_a_public_header_is_found) {
   EXPECT_THAT(faults_of("include/sunder/io/a.h", "#include <nlohmann/json.hpp>"),
               ElementsAre(HasSubstr("third parties")));
@@ -226,7 +268,8 @@ TEST(Architecture, a_third_party_behind_another_door_is_found) {
   EXPECT_THAT(faults_of("skinning/a.cpp", "#include <hwy/highway.h>"), IsEmpty());
   EXPECT_THAT(faults_of("weights/a.cpp", "#include <ceres/solver.h>"),
               ElementsAre(HasSubstr("third party")));
-  EXPECT_THAT(faults_of("coupled_refit/ceres_refit.cpp", "#include <ceres/solver.h>"), IsEmpty());
+  EXPECT_THAT(faults_of("weights/coupled_refit/ceres_refit.cpp", "#include <ceres/solver.h>"),
+              IsEmpty());
   EXPECT_THAT(faults_of("particles/a.cpp", "#include <BulletDynamics/Dynamics/btRigidBody.h>"),
               ElementsAre(HasSubstr("third party")));
   EXPECT_THAT(faults_of("particles/bullet/bullet_body.cpp",

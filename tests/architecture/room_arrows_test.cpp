@@ -11,6 +11,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "architecture/module_folders.h"
 #include "architecture/source_tree.h"
 
 namespace sunder::test {
@@ -101,15 +102,17 @@ bool may_include(const Rooms& rooms, const std::string& from, const std::string&
 /// One line per include that no arrow of `rooms` allows, sorted.
 std::vector<std::string> room_faults(const fs::path& root, const std::string& module,
                                      const Rooms& rooms) {
+  const std::string folder = folder_of(module);
   std::vector<std::string> faults;
-  for (const fs::path& path : source_files(root / module)) {
-    const std::string file = name_below(root / module, path);
+  for (const fs::path& path : source_files(root / folder)) {
+    if (module_of(name_below(root, path)) != module) continue;
+    const std::string file = name_below(root / folder, path);
     const std::string from = room_of(file);
     if (from != "internal" && !rooms.contains(from))
       faults.push_back(module + "/" + from + ": not a room");
     for (const Include& include : includes_of(path)) {
-      if (!include.quoted || !include.path.starts_with(module + "/")) continue;
-      const std::string to = room_of(include.path.substr(module.size() + 1));
+      if (!include.quoted || module_of(include.path) != module) continue;
+      const std::string to = room_of(include.path.substr(folder.size() + 1));
       if (!may_include(rooms, from, to))
         faults.push_back(module + "/" + file + ": " + include.path + ": the arrow from " + from +
                          " to " + to + " is not allowed");
@@ -157,7 +160,7 @@ std::vector<std::string> room_faults_of(const std::string& file, const std::stri
 
 TEST(RoomArrows, our_rooms_follow_them) {
   for (const auto& [module, rooms] : kRooms) {
-    ASSERT_FALSE(source_files(fs::path(SUNDER_SOURCE_DIR) / module).empty()) << module;
+    ASSERT_FALSE(source_files(fs::path(SUNDER_SOURCE_DIR) / folder_of(module)).empty()) << module;
     EXPECT_THAT(room_faults(SUNDER_SOURCE_DIR, module, rooms), IsEmpty());
   }
 }
@@ -172,7 +175,7 @@ TEST(RoomArrows, have_no_circle) {
 TEST(RoomArrows, name_rooms_that_exist) {
   for (const auto& [module, rooms] : kRooms)
     for (const auto& [room, unused] : rooms)
-      EXPECT_TRUE(fs::is_directory(fs::path(SUNDER_SOURCE_DIR) / module / room))
+      EXPECT_TRUE(fs::is_directory(fs::path(SUNDER_SOURCE_DIR) / folder_of(module) / room))
           << module << "/" << room;
 }
 

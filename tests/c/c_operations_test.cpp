@@ -12,8 +12,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "operation/internal/describe_operations.h"
-#include "operation/internal/names.h"
+#include "core/operation/internal/describe_operations.h"
+#include "core/operation/internal/names.h"
 
 namespace sunder::test {
 namespace {

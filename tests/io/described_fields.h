@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "core/operation/internal/describe_aimed.h"
 #include "io/operation_log/write_fields.h"
-#include "operation/internal/describe_aimed.h"
 
 namespace sunder::operation_log {
 

@@ -1,7 +1,7 @@
 #include "io/operation_schema.h"
 
+#include "core/operation/internal/view_sides.h"
 #include "io/described_fields.h"
-#include "operation/internal/view_sides.h"
 
 namespace sunder::test {
 namespace {

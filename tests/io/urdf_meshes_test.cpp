@@ -1,8 +1,8 @@
 // Shapes of links: where they stand, their winding and colour, which files they may come from, and
 // that a robot is a character like any other.
 
-#include <sunder/certificate/robot_limits.h>
 #include <sunder/io/robot_file.h>
+#include <sunder/robot/robot_limits.h>
 #include <sunder/skinning/pose.h>
 
 #include <algorithm>

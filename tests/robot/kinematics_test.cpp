@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "robot/internal/planar_axes.h"
+#include "io/robot/internal/planar_axes.h"
 #include "support/machine/allocation_count.h"
 #include "support/machine/random.h"
 

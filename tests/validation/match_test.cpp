@@ -11,12 +11,12 @@
 #include <gtest/gtest.h>
 
 #include "core/internal/bone_sides.h"
+#include "pipeline/validation/match/closest_on_triangle.h"
+#include "pipeline/validation/match/skin_difference.h"
 #include "skinning/internal/reference.h"
 #include "support/models/make_model.h"
 #include "support/models/random_operations.h"
 #include "support/models/rigs.h"
-#include "validation/match/closest_on_triangle.h"
-#include "validation/match/skin_difference.h"
 
 namespace sunder::validation {
 namespace {

@@ -12,12 +12,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "pipeline/validation/match/weld.h"
+#include "pipeline/validation/transfer/laplacian.h"
 #include "support/models/changed_surfaces.h"
 #include "support/models/make_model.h"
 #include "support/models/random_operations.h"
 #include "support/models/rigs.h"
-#include "validation/match/weld.h"
-#include "validation/transfer/laplacian.h"
 
 namespace sunder {
 namespace {

@@ -1,6 +1,6 @@
 #include <string>
 
-#include "binding/internal/option_ranges.h"
+#include "pipeline/binding/internal/option_ranges.h"
 #include "tools/bind/place.h"
 #include "tools/command_line/number_option.h"
 #include "tools/command_line/options.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "operation/internal/view_sides.h"
+#include "core/operation/internal/view_sides.h"
 #include "tools/command_line/options.h"
 
 namespace sunder::tools {

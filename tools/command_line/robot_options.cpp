@@ -3,8 +3,8 @@
 #include <sstream>
 #include <string>
 
-#include "operation/internal/field_ranges.h"
-#include "robot/internal/option_ranges.h"
+#include "core/operation/internal/field_ranges.h"
+#include "io/robot/internal/option_ranges.h"
 #include "tools/bind/place.h"
 #include "tools/command_line/number_option.h"
 #include "tools/command_line/options.h"

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "operation/internal/field_ranges.h"
-#include "operation/internal/names.h"
+#include "core/operation/internal/field_ranges.h"
+#include "core/operation/internal/names.h"
 #include "tools/command_line/number_option.h"
 #include "tools/command_line/options.h"
 #include "tools/written_weights/written_influences.h"

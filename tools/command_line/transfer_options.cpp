@@ -1,8 +1,8 @@
 #include <string>
 
+#include "pipeline/validation/internal/option_ranges.h"
 #include "tools/command_line/number_option.h"
 #include "tools/command_line/options.h"
-#include "validation/internal/option_ranges.h"
 
 namespace sunder::tools {
 namespace {

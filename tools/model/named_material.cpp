@@ -2,8 +2,8 @@
 
 #include <variant>
 
+#include "core/operation/internal/describe_aimed.h"
 #include "io/internal/base_colours.h"
-#include "operation/internal/describe_aimed.h"
 
 namespace sunder::tools {
 namespace {

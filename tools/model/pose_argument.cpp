@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "core/internal/find_named.h"
-#include "operation/internal/names.h"
+#include "core/operation/internal/names.h"
 #include "tools/messages/printed.h"
 #include "tools/model/name_at.h"
 #include "tools/model/named_poses.h"

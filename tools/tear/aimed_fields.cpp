@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "operation/internal/describe_aimed.h"
-#include "operation/internal/names.h"
+#include "core/operation/internal/describe_aimed.h"
+#include "core/operation/internal/names.h"
 
 namespace sunder::tools {
 namespace {

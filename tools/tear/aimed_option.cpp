@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "operation/internal/names.h"
+#include "core/operation/internal/names.h"
 #include "tools/messages/json.h"
 #include "tools/model/name_at.h"
 #include "tools/tear/aimed_fields.h"

@@ -1,6 +1,6 @@
 #include "tools/tear/refit.h"
 
-#include <sunder/certificate/robot_limits.h>
+#include <sunder/robot/robot_limits.h>
 #include <sunder/skinning/pose.h>
 
 #include <algorithm>

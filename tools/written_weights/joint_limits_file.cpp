@@ -1,7 +1,7 @@
 #include "tools/written_weights/joint_limits_file.h"
 
-#include <sunder/certificate/robot_limits.h>
 #include <sunder/robot/robot.h>
+#include <sunder/robot/robot_limits.h>
 #include <sunder/skinning/pose.h>
 #include <sunder/validation/validation.h>
 

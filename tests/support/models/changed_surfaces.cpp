@@ -6,7 +6,7 @@
 #include <map>
 #include <string>
 
-#include "validation/match/bind_surface.h"
+#include "pipeline/validation/match/bind_surface.h"
 
 namespace sunder::test {
 namespace {

@@ -1,0 +1,146 @@
+#include <sunder/bodies/convex_hulls.h>
+#include <sunder/skinning/deform.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <utility>
+
+#include "core/internal/out_of_memory.h"
+#include "skinning/internal/character_pose.h"
+#include "tear/bodies/hull_of_points.h"
+#include "tear/bodies/parts.h"
+#include "tear/bodies/qhull.h"
+
+namespace sunder {
+namespace {
+
+Status check_options(const HullOptions& options) {
+  if (!bodies::has_qhull())
+    return Status::failure(StatusCode::unsupported_feature, kNone,
+                           "convex hulls need Qhull; build with SUNDER_QHULL");
+  if (options.maximum_points < 4 || options.maximum_points > 65535)
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "hulls of at most %u points; it must be 4 to 65535",
+                           options.maximum_points);
+  if (options.maximum_hulls == 0)
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "at most 0 hulls; it must be 1 or more");
+  return {};
+}
+
+Status check_points(std::span<const Vec3d> points) {
+  for (std::uint32_t i = 0; i < points.size(); ++i)
+    if (!points[i].allFinite())
+      return Status::failure(StatusCode::non_finite_value, i, "point %u is not finite", i);
+  return {};
+}
+
+/// The surface of all meshes of a character, posed.
+struct PosedSurface {
+  std::vector<Vec3d> positions;
+  std::vector<Triangle> triangles;
+  std::vector<std::uint32_t> bones;
+
+  void add(const Mesh& mesh, const Skin& skin, const CharacterPose& pose) {
+    const auto first = static_cast<std::uint32_t>(positions.size());
+    for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v)
+      positions.push_back(pose.position(mesh, v));
+    for (const Triangle& triangle : mesh.triangles)
+      triangles.push_back({triangle[0] + first, triangle[1] + first, triangle[2] + first});
+    for (const Triangle& triangle : mesh.triangles)
+      bones.push_back(is_retired(triangle) ? kNone : main_bone(triangle, mesh.weights, skin));
+  }
+};
+
+}  // namespace
+
+bool has_convex_hulls() { return bodies::has_qhull(); }
+
+Result<ConvexHull> convex_hull(std::span<const Vec3d> points, std::uint32_t maximum_points) {
+  HullOptions options;
+  options.maximum_points = maximum_points;
+  if (Status status = check_options(options); !status) return status;
+  if (points.empty())
+    return Status::failure(StatusCode::empty_input, kNone, "a hull needs at least one point");
+  if (Status status = check_points(points); !status) return status;
+  return or_out_of_memory(
+      [&]() -> Result<ConvexHull> { return bodies::hull_of_points(points, maximum_points); });
+}
+
+Result<std::vector<ConvexHull>> convex_hulls(std::span<const Vec3d> positions,
+                                             std::span<const Triangle> triangles,
+                                             std::span<const std::uint32_t> part_of_triangle,
+                                             const HullOptions& options) {
+  if (Status status = check_options(options); !status) return status;
+  if (part_of_triangle.size() != triangles.size())
+    return Status::failure(StatusCode::size_mismatch, kNone,
+                           "there are parts of %zu triangles, and %zu triangles",
+                           part_of_triangle.size(), triangles.size());
+  for (std::uint32_t t = 0; t < triangles.size(); ++t)
+    for (const std::uint32_t vertex : triangles[t])
+      if (vertex >= positions.size())
+        return Status::failure(StatusCode::index_out_of_range, t,
+                               "triangle %u has vertex %u; there are %zu", t, vertex,
+                               positions.size());
+  if (Status status = check_points(positions); !status) return status;
+  return or_out_of_memory([&]() -> Result<std::vector<ConvexHull>> {
+    std::vector<ConvexHull> hulls;
+    for (const bodies::Part& part :
+         bodies::join_parts(positions, triangles, part_of_triangle, options.maximum_hulls)) {
+      std::vector<Vec3d> points;
+      for (const std::uint32_t vertex : part.vertices) points.push_back(positions[vertex]);
+      hulls.push_back(bodies::hull_of_points(points, options.maximum_points));
+      hulls.back().part = part.number;
+    }
+    if (hulls.empty())
+      return Status::failure(StatusCode::empty_input, kNone,
+                             "hulls need a surface; there is no triangle");
+    return hulls;
+  });
+}
+
+Result<std::vector<ConvexHull>> convex_hulls(const Character& character, const ModelPose& pose,
+                                             const HullOptions& options) {
+  if (Status status = check_options(options); !status) return status;
+  return or_out_of_memory([&]() -> Result<std::vector<ConvexHull>> {
+    CharacterPose posed;
+    if (Status status = posed.set(character, pose); !status) return status;
+    PosedSurface surface;
+    for (const Mesh& mesh : character.meshes) surface.add(mesh, character.skins[mesh.skin], posed);
+    return convex_hulls(surface.positions, surface.triangles, surface.bones, options);
+  });
+}
+
+std::uint32_t main_bone(const Triangle& triangle, const SkinWeights& weights, const Skin& skin) {
+  const auto sum_of = [&](std::uint32_t slot) {
+    float sum = 0;
+    for (const std::uint32_t vertex : triangle)
+      for (const Influence& influence : weights.of(vertex))
+        if (influence.slot == slot) sum += influence.weight;
+    return sum;
+  };
+  Influence most{kNone, 0.0f};
+  const auto compare = [&](const Influence& sum) {
+    if (sum.weight > most.weight || (sum.weight == most.weight && sum.slot < most.slot)) most = sum;
+  };
+  constexpr std::size_t kMostSums = 16;  // more bones are summed one by one
+  std::array<Influence, kMostSums> sums;
+  std::size_t count = 0;
+  for (const std::uint32_t vertex : triangle)
+    for (const Influence& influence : weights.of(vertex)) {
+      const auto end = sums.begin() + static_cast<std::ptrdiff_t>(count);
+      const auto known = std::find_if(
+          sums.begin(), end, [&](const Influence& sum) { return sum.slot == influence.slot; });
+      if (known != end)
+        known->weight += influence.weight;
+      else if (count < kMostSums)
+        sums[count++] = influence;
+      else
+        compare({influence.slot, sum_of(influence.slot)});
+    }
+  for (std::size_t i = 0; i < count; ++i) compare(sums[i]);
+  return skin.bones[most.slot];
+}
+
+}  // namespace sunder
