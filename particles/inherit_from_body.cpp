@@ -93,40 +93,7 @@ PointMotion motion_at(const BodyState& of, Index point) {
   return motion;
 }
 
-Status check_map(const BodyState& to, const BodyState& other,
-                 std::span<const std::uint32_t> point_of_other) {
-  if (point_of_other.size() != to.set->point_count())
-    return Status::failure(StatusCode::size_mismatch, kNone,
-                           "the map has %zu entries, the particles have %u points",
-                           point_of_other.size(), to.set->point_count());
-  for (Index point = 0; point < point_of_other.size(); ++point)
-    if (point_of_other[point] != kNone && point_of_other[point] >= other.set->point_count())
-      return Status::failure(StatusCode::index_out_of_range, point,
-                             "point %u is mapped to point %u of the other body, which has %u",
-                             point, point_of_other[point], other.set->point_count());
-  return {};
-}
-
 }  // namespace
-
-Status SoftBody::inherit_motion_from(const SoftBody& other,
-                                     std::span<const std::uint32_t> point_of_other) {
-  BodyState& to = *state_;
-  const BodyState& from = *other.state_;
-  if (Status status = check_map(to, from, point_of_other); !status) return status;
-  if (from.set->revision() != from.revision)
-    return Status::failure(StatusCode::invalid_argument, kNone,
-                           "the other body has not followed its particles yet; step it first");
-  try {
-    std::vector<PointMotion> motions(point_of_other.size());
-    for (Index point = 0; point < motions.size(); ++point)
-      if (point_of_other[point] != kNone) motions[point] = motion_at(from, point_of_other[point]);
-    inherit(to, motions);
-    return {};
-  } catch (const std::bad_alloc&) {
-    return out_of_memory();
-  }
-}
 
 Status SoftBody::inherit_motion_from(std::span<const PointMotion> motions) {
   BodyState& to = *state_;

@@ -325,8 +325,6 @@ Status SoftBody::move_collider(std::uint32_t collider, const Vec3d& place, const
   return {};
 }
 
-std::span<const Collider> SoftBody::colliders() const { return state_->contact.colliders(); }
-
 // ---- Motion.
 
 Status SoftBody::step(const TornModel& model, const ModelPose& pose, double seconds,
@@ -407,14 +405,6 @@ Vec3d SoftBody::point_displacement(std::uint32_t point) const {
   Vec3d sum = Vec3d::Zero();
   for_each_influence(state_->set->influences()[point],
                      [&](Index p, double weight) { sum += weight * displacement(p); });
-  return sum;
-}
-
-Vec3d SoftBody::point_velocity(std::uint32_t point) const {
-  SUNDER_ASSERT(point < state_->set->point_count());
-  Vec3d sum = Vec3d::Zero();
-  for_each_influence(state_->set->influences()[point],
-                     [&](Index p, double weight) { sum += weight * velocity(p); });
   return sum;
 }
 

@@ -15,7 +15,7 @@ TEST(AssertDeathTest, particles_and_points_that_do_not_exist) {
   EXPECT_DEATH((void)scene.set->seed(particle), "particle_count");
   EXPECT_DEATH((void)scene.set->memberships(point), "point_count");
   EXPECT_DEATH((void)scene.body->displacement(particle), "particle_count");
-  EXPECT_DEATH((void)scene.body->point_velocity(point), "point_count");
+  EXPECT_DEATH((void)scene.body->point_displacement(point), "point_count");
 }
 
 #endif

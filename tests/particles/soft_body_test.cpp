@@ -323,7 +323,6 @@ TEST(soft_body, velocities_inherit_the_motion_of_the_pose) {
       scene.step(0.01);
     }
     EXPECT_LT((scene.body->velocity(4) - Vec3d(3, 1, 0)).norm(), 1e-2);
-    EXPECT_LT((scene.body->point_velocity(100) - Vec3d(3, 1, 0)).norm(), 1e-2);
     scene.step(0.01);
     scene.run(0.2);
     EXPECT_LT(scene.body->velocity(4).norm(), 1e-2);
@@ -490,6 +489,7 @@ TEST(soft_body, nothing_breaks_it) {
     SoftBody& body = *scene.body;
     const ModelPose rest = scene.pose;
     std::vector<HoldId> holds;
+    std::uint32_t colliders = 0;
     for (int i = 0; i < 150; ++i) {
       const std::uint32_t particle = random.index(scene.count()),
                           point = random.index(scene.set->point_count());
@@ -508,11 +508,12 @@ TEST(soft_body, nothing_breaks_it) {
           const Collider some[] = {
               {Collider::Sphere{0.4}, random.direction(), random_body_turn(random), 0.5},
               {Collider::Box{{0.2, 0.4, 0.3}}, random.direction(), random_body_turn(random), 0.1}};
-          ASSERT_TRUE(body.set_colliders({some, random.index(3)}));
+          colliders = random.index(3);
+          ASSERT_TRUE(body.set_colliders({some, colliders}));
           break;
         }
         case 8:
-          if (!body.colliders().empty()) {
+          if (colliders > 0) {
             ASSERT_TRUE(body.move_collider(0, random.direction(), random_body_turn(random)));
           }
           break;

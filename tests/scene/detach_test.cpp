@@ -211,7 +211,7 @@ TEST(DetachFromInstance, a_piece_keeps_the_motion_of_its_tissue) {
         wanted.push_back(of.displacement);
         missing.push_back(of.displacement - detached.body()->point_displacement(point));
         wanted_velocities.push_back(of.velocity);
-        missing_velocities.push_back(of.velocity - detached.body()->point_velocity(point));
+        missing_velocities.push_back(of.velocity - detached.body()->motion_of(point).velocity);
       }
     ASSERT_GT(magnitude(wanted), 0);
     ASSERT_GT(magnitude(wanted_velocities), 0);

@@ -145,17 +145,13 @@ class SUNDER_API SoftBody {
   /// Sets the position of a collider at the end of the next step. Its velocity follows from its
   /// position after the previous step.
   Status move_collider(std::uint32_t collider, const Vec3d& place, const Quatd& turn);
-  [[nodiscard]] std::span<const Collider> colliders() const;
 
-  /// Gives each particle the displacement and velocity of the other body at its points, and the
-  /// material there if this body has one of that index: for a piece that a tear separated and that
-  /// becomes a body of its own. Nothing else acts on it yet.
-  /// @param point_of_other  per point of this body's set: the point of the other's; kNone: none.
-  /// @return size_mismatch, index_out_of_range, limit_exceeded. O(points), allocates.
-  Status inherit_motion_from(const SoftBody& other, std::span<const std::uint32_t> point_of_other);
-  /// The same from motions that were kept, because the other body has changed since.
-  /// @param motions  per point of this body's set. @return size_mismatch, non_finite_value,
-  /// limit_exceeded. O(points), allocates.
+  /// Gives each particle the displacement and velocity at its points, and the material there if
+  /// this body has one of that index: for a piece that a tear separated and that becomes a body of
+  /// its own. Nothing else acts on it yet.
+  /// @param motions  per point of this body's set; unknown ones are left out: motion_of() of the
+  ///                 other body, kept if that changes first.
+  /// @return size_mismatch, non_finite_value, limit_exceeded. O(points), allocates.
   Status inherit_motion_from(std::span<const PointMotion> motions);
   /// The motion at a point of the set, unchecked; unknown where no particle moves it, and before
   /// displacements() or step() has followed the set.
@@ -200,7 +196,6 @@ class SUNDER_API SoftBody {
   [[nodiscard]] Vec3d velocity(std::uint32_t particle) const;
   /// Mean over the particles of a point, by its influences.
   [[nodiscard]] Vec3d point_displacement(std::uint32_t point) const;
-  [[nodiscard]] Vec3d point_velocity(std::uint32_t point) const;
 
   [[nodiscard]] std::uint32_t particle_count() const;
   [[nodiscard]] bool is_awake(std::uint32_t particle) const;
