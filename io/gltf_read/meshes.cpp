@@ -1,11 +1,11 @@
 #include "io/gltf_read/meshes.h"
 
 #include <algorithm>
-#include <numeric>
 #include <string>
 #include <utility>
 
 #include "io/gltf/refusal.h"
+#include "io/gltf/rigid_weights.h"
 #include "io/gltf_read/attributes.h"
 #include "io/gltf_read/primitives.h"
 #include "io/gltf_read/skins.h"
@@ -37,14 +37,6 @@ std::uint32_t target_count(const Cursor& mesh) {
     if (const auto targets = primitives.element(i).find("targets"))
       count = std::max(count, targets->size());
   return static_cast<std::uint32_t>(count);
-}
-
-SkinWeights rigid_weights(std::uint32_t vertex_count) {
-  SkinWeights weights;
-  weights.first.resize(std::size_t{vertex_count} + 1);
-  std::iota(weights.first.begin(), weights.first.end(), 0u);
-  weights.influences.assign(vertex_count, {0, 1.0f});
-  return weights;
 }
 
 class MeshBuilder {

@@ -1,10 +1,10 @@
 #include "io/urdf/robot_model.h"
 
 #include <memory>
-#include <numeric>
 #include <utility>
 #include <vector>
 
+#include "io/gltf/rigid_weights.h"
 #include "io/gltf_write/new_document.h"
 
 namespace sunder::urdf {
@@ -26,15 +26,6 @@ Result<Skeleton> make_skeleton(const Robot& robot, const Affine3d& model_from_ro
   return skeleton;
 }
 
-/// All vertices follow the first bone of the skin.
-SkinWeights rigid_weights(std::uint32_t vertex_count) {
-  SkinWeights weights;
-  weights.first.resize(std::size_t{vertex_count} + 1);
-  std::iota(weights.first.begin(), weights.first.end(), 0u);
-  weights.influences.assign(vertex_count, {0, 1.0f});
-  return weights;
-}
-
 void add_meshes(std::vector<Mesh> of_link, Character& character) {
   for (std::uint32_t link = 0; link < of_link.size(); ++link) {
     Mesh& mesh = of_link[link];
@@ -42,7 +33,7 @@ void add_meshes(std::vector<Mesh> of_link, Character& character) {
     const std::string& name = character.skeleton.bones[link].name;
     mesh.name = name;
     mesh.skin = static_cast<std::uint32_t>(character.skins.size());
-    mesh.weights = rigid_weights(mesh.vertex_count());
+    mesh.weights = gltf::rigid_weights(mesh.vertex_count());
     character.skins.push_back({name, {link}, {Affine3f::Identity()}});
     character.meshes.push_back(std::move(mesh));
   }
