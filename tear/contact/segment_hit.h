@@ -4,11 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <optional>
 
-#include "core/internal/ordered.h"
-#include "tear/geometry/tolerances.h"
+#include "tear/geometry/triangle_crossing.h"
 
 namespace sunder::tear {
 
@@ -19,26 +17,17 @@ struct SegmentHit {
   bool enters = true;
 };
 
-/// The intersection of a half-line with a triangle, its edges included, so that it passes no gap
-/// between two faces. Lines along the triangle's plane do not meet it. Moeller and Trumbore 1997.
+/// The intersection of a half-line with a triangle.
 [[nodiscard]] inline std::optional<SegmentHit> hit_of_segment(const Vec3d& base, const Vec3d& way,
                                                               const std::array<Vec3d, 3>& corners) {
-  const Vec3d ab = corners[1] - corners[0], ac = corners[2] - corners[0];
-  const Vec3d h = way.cross(ac);
-  const double determinant = dot(ab, h);
-  if (!(std::abs(determinant) > kAlongFaceLengths * norm(ab) * norm(ac) * norm(way)))
-    return std::nullopt;
-  const Vec3d from_corner = base - corners[0];
-  const double u = dot(from_corner, h) / determinant;
-  if (!(u >= -kHitBarycentric && u <= 1 + kHitBarycentric)) return std::nullopt;
-  const Vec3d q = from_corner.cross(ab);
-  const double v = dot(way, q) / determinant, along = dot(ac, q) / determinant;
-  if (!(v >= -kHitBarycentric && u + v <= 1 + kHitBarycentric && along >= 0)) return std::nullopt;
+  const auto crossing = cross_triangle(base, way, corners);
+  if (!crossing || !(crossing->along >= 0)) return std::nullopt;
+  const double u = crossing->u, v = crossing->v;
   std::array<double, 3> barycentric = {std::max(0.0, 1 - u - v), std::max(0.0, u),
                                        std::max(0.0, v)};
   const double sum = barycentric[0] + barycentric[1] + barycentric[2];
   for (double& part : barycentric) part /= sum;
-  return SegmentHit{along, barycentric, determinant > 0};
+  return SegmentHit{crossing->along, barycentric, crossing->enters};
 }
 
 }  // namespace sunder::tear

@@ -2,7 +2,9 @@
 
 #include <sunder/core/math.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <memory_resource>
 #include <span>
 #include <vector>
@@ -27,6 +29,34 @@ struct PlaneSide {
   [[nodiscard]] double rounding(const Vec3d& point) const {
     return kOnPlaneTerms * (std::abs(normal.x() * point.x()) + std::abs(normal.y() * point.y()) +
                             std::abs(normal.z() * point.z()) + std::abs(offset));
+  }
+};
+
+/// A line that is clipped by half-spaces one after the other.
+struct ClippedLine {
+  Vec3d begin, way;
+  double first = 0, last = 1;  ///< The part that is left, in units of `way`.
+
+  [[nodiscard]] Vec3d place(double at) const { return begin + at * way; }
+
+  enum class Change : std::uint8_t { none, first, last, all };
+  /// @return which end moved; `all`: nothing is left.
+  Change clip(const PlaneSide& side) {
+    const bool has_begin = side.contains(begin), has_end = side.contains(begin + way);
+    if (has_begin && has_end) return Change::none;
+    if (!has_begin && !has_end) return Change::all;
+    const double at_begin = side.value(begin), at_end = side.value(begin + way);
+    const double at =
+        at_begin == at_end ? 0.0 : std::clamp(at_begin / (at_begin - at_end), 0.0, 1.0);
+    if (!has_begin && at >= first) {
+      first = at;
+      return Change::first;
+    }
+    if (!has_end && at <= last) {
+      last = at;
+      return Change::last;
+    }
+    return Change::none;
   }
 };
 

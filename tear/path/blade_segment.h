@@ -10,7 +10,7 @@
 
 #include "core/internal/ordered.h"
 #include "tear/geometry/box.h"
-#include "tear/geometry/tolerances.h"
+#include "tear/geometry/triangle_crossing.h"
 #include "tear/path/surface_hit.h"
 #include "tear/posed/posed_points.h"
 
@@ -23,32 +23,6 @@ inline FaceCorners posed_corners(const SurfaceEditor& editor, PosedPoints& posed
   const Index* points = &editor.surface().corner_point[3 * triangle];
   return {posed.position(editor, points[0]), posed.position(editor, points[1]),
           posed.position(editor, points[2])};
-}
-
-/// Where a segment crosses the plane of a triangle.
-struct FaceCrossing {
-  double u, v;   ///< Barycentric coordinates of the second and the third corner.
-  double depth;  ///< As a fraction of the segment.
-};
-
-/// The crossing of a segment with a triangle or its edges. Moeller and Trumbore 1997.
-[[nodiscard]] inline std::optional<FaceCrossing> cross_face(const Vec3d& base,
-                                                            const Vec3d& direction,
-                                                            const FaceCorners& corners) {
-  const Vec3d ab = corners[1] - corners[0], ac = corners[2] - corners[0];
-  const Vec3d h = direction.cross(ac);
-  const double determinant = dot(ab, h);
-  if (!(std::abs(determinant) > kAlongFaceLengths * norm(ab) * norm(ac) * norm(direction)))
-    return std::nullopt;
-  const Vec3d from_corner = base - corners[0];
-  const double u = dot(from_corner, h) / determinant;
-  const Vec3d q = from_corner.cross(ab);
-  const double v = dot(direction, q) / determinant;
-  const double depth = dot(ac, q) / determinant;
-  if (u < -kHitBarycentric || v < -kHitBarycentric || u + v > 1 + kHitBarycentric || depth < 0 ||
-      depth > 1)
-    return std::nullopt;
-  return FaceCrossing{u, v, depth};
 }
 
 /// A segment in a frame whose first axis is its direction. Clips the segment to boxes of that
@@ -94,8 +68,8 @@ class BladeSegment {
   /// two faces.
   [[nodiscard]] inline std::optional<SurfaceHit> hit(Index triangle, const FaceCorners& corners,
                                                      double& depth) const {
-    const auto crossing = cross_face(base_, direction_, corners);
-    if (!crossing) return std::nullopt;
+    const auto crossing = cross_triangle(base_, direction_, corners);
+    if (!crossing || !crossing->is_on_segment()) return std::nullopt;
     // If the segment runs along the triangle's plane, rounding may give places outside the
     // triangle.
     const Vec3d a = frame_.place_of(corners[0]), b = frame_.place_of(corners[1]),
@@ -103,8 +77,8 @@ class BladeSegment {
     const FrameBox box{a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
     const Part part = part_in(box, box.margin(reach_));
     if (part.is_empty()) return std::nullopt;
-    depth = std::clamp(crossing->depth, part.begin, part.end);
-    const auto [u, v, at] = *crossing;
+    depth = std::clamp(crossing->along, part.begin, part.end);
+    const double u = crossing->u, v = crossing->v;
     return SurfaceHit{triangle,
                       {std::max(0.0, 1 - u - v), std::max(0.0, u), std::max(0.0, v)},
                       base_ + depth * direction_,

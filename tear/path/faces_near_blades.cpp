@@ -151,8 +151,9 @@ std::optional<SurfaceHit> FacesNearBlades::first_hit(const Blade& blade) {
   crossed_.clear();
   for (const Index place : selected_) {
     const Known& face = known_[place];
-    if (!face.is_beside(blade) && cross_face(blade.base, direction, face.corners))
-      crossed_.push_back(place);
+    if (face.is_beside(blade)) continue;
+    const auto crossing = cross_triangle(blade.base, direction, face.corners);
+    if (crossing && crossing->is_on_segment()) crossed_.push_back(place);
   }
   if (crossed_.empty()) return std::nullopt;
   const BladeSegment segment(blade, {axes_along(direction), frame_origin_});

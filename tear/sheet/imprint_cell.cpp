@@ -438,26 +438,19 @@ class Imprint {
 
   /// Clips a line by the other sides. @return whether anything is left.
   bool clip(Line& line) const {
-    const Vec3d begin = line.from.position, way = line.to.position - line.from.position;
-    double first = 0, last = 1;
+    ClippedLine clipped{line.from.position, line.to.position - line.from.position};
     for (Index i = 0; i < sides_.cell().size(); ++i) {
       if (i == line.side) continue;
-      const PlaneSide& other = side(i);
-      const bool has_begin = other.contains(begin), has_end = other.contains(begin + way);
-      if (has_begin && has_end) continue;
-      if (!has_begin && !has_end) return false;
-      const double at_begin = other.value(begin), at_end = other.value(begin + way);
-      const double at =
-          at_begin == at_end ? 0.0 : std::clamp(at_begin / (at_begin - at_end), 0.0, 1.0);
-      if (!has_begin && at >= first) {
-        first = at;
-        line.from = {begin + at * way, kNone, i};
-      } else if (!has_end && at <= last) {
-        last = at;
-        line.to = {begin + at * way, kNone, i};
+      switch (clipped.clip(side(i))) {
+        case ClippedLine::Change::none: break;
+        case ClippedLine::Change::all: return false;
+        case ClippedLine::Change::first:
+          line.from = {clipped.place(clipped.first), kNone, i};
+          break;
+        case ClippedLine::Change::last: line.to = {clipped.place(clipped.last), kNone, i}; break;
       }
     }
-    return first < last;
+    return clipped.first < clipped.last;
   }
 
   /// A corner in a face where two sides meet; the lines of both end in it.

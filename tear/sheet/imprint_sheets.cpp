@@ -269,26 +269,17 @@ class SheetImprinter {
 
   /// Clips a line by the bounds of its sheet. @return false if nothing is left.
   [[nodiscard]] bool clip(Index sheet, SheetLineEnd& from, SheetLineEnd& to) const {
-    const Vec3d begin = from.position, way = to.position - from.position;
-    double first = 0, last = 1;
+    ClippedLine clipped{from.position, to.position - from.position};
     const auto& bounds = sheets_[sheet].bounds;
-    for (Index i = 0; i < bounds.size(); ++i) {
-      const PlaneSide& side = bounds[i].side;
-      const bool has_begin = side.contains(begin), has_end = side.contains(begin + way);
-      if (has_begin && has_end) continue;
-      if (!has_begin && !has_end) return false;
-      const double at_begin = side.value(begin), at_end = side.value(begin + way);
-      const double at =
-          at_begin == at_end ? 0.0 : std::clamp(at_begin / (at_begin - at_end), 0.0, 1.0);
-      if (!has_begin && at >= first) {
-        first = at;
-        from = SheetLineEnd{begin + at * way, kNone, kNone, i};
-      } else if (!has_end && at <= last) {
-        last = at;
-        to = SheetLineEnd{begin + at * way, kNone, kNone, i};
+    for (Index i = 0; i < bounds.size(); ++i) switch (clipped.clip(bounds[i].side)) {
+        case ClippedLine::Change::none: break;
+        case ClippedLine::Change::all: return false;
+        case ClippedLine::Change::first:
+          from = {clipped.place(clipped.first), kNone, kNone, i};
+          break;
+        case ClippedLine::Change::last: to = {clipped.place(clipped.last), kNone, kNone, i}; break;
       }
-    }
-    return first < last;
+    return clipped.first < clipped.last;
   }
 
   /// @param edge  along which the line goes; kNone for a line across the face.
