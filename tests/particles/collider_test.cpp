@@ -261,7 +261,7 @@ TEST(collider, a_floor_carries_falling_tissue) {
 }
 
 TEST(collider, friction_drags_along) {
-  double dragged[2];
+  double dragged[2] = {};
   for (const bool is_rough : {false, true}) {
     SoftScene scene(test::make_sheet(24, 2.0f), find_material("skin").value(), 0.06);
     Collider box{

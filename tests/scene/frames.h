@@ -1,5 +1,6 @@
 #pragma once
 
+#include <sunder/animation/clip_player.h>
 #include <sunder/core/status.h>
 #include <sunder/scene/character_instance.h>
 

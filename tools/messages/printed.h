@@ -8,8 +8,7 @@
 namespace sunder::tools {
 
 /// printf into a string.
-SUNDER_PRINTF(1, 2)
-[[nodiscard]] std::string printed(const char* format, ...);
+[[nodiscard]] SUNDER_PRINTF(1, 2) std::string printed(const char* format, ...);
 
 /// "(0.1, -2, 3.25)", with four digits.
 [[nodiscard]] std::string point_text(const Vec3d& point);

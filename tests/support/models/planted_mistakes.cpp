@@ -415,7 +415,7 @@ PlantedMistake leave_t_junction(const Character& model) {
     largest = l1;
     edge = of;
   }
-  const auto [a, b] = edge;
+  const Index a = edge.first, b = edge.second;
   const Index middle = mesh.vertex_count();
   Row row;
   for (const Index end : {a, b})
