@@ -38,15 +38,16 @@ struct FaceCrossing {
   const Vec3d ab = corners[1] - corners[0], ac = corners[2] - corners[0];
   const Vec3d h = direction.cross(ac);
   const double determinant = dot(ab, h);
-  if (!(std::abs(determinant) > kAlongFaceLengths * norm(ab) * norm(ac) * norm(direction)))
-    return std::nullopt;
   const Vec3d from_corner = base - corners[0];
+  // Most faces are missed beside their first edges; numbers that are not finite are found below.
   const double u = dot(from_corner, h) / determinant;
+  if (u < -kHitBarycentric || u > 1 + 4 * kHitBarycentric) return std::nullopt;
   const Vec3d q = from_corner.cross(ab);
   const double v = dot(direction, q) / determinant;
+  if (v < -kHitBarycentric || u + v > 1 + kHitBarycentric) return std::nullopt;
   const double depth = dot(ac, q) / determinant;
-  if (u < -kHitBarycentric || v < -kHitBarycentric || u + v > 1 + kHitBarycentric || depth < 0 ||
-      depth > 1)
+  if (depth < 0 || depth > 1) return std::nullopt;
+  if (!(std::abs(determinant) > kAlongFaceLengths * norm(ab) * norm(ac) * norm(direction)))
     return std::nullopt;
   return FaceCrossing{u, v, depth};
 }
