@@ -21,7 +21,8 @@ Status deform_mesh(const Mesh& mesh, std::span<const Affine3f> model_from_bind,
       return Status::failure(StatusCode::size_mismatch, influence.slot,
                              "mesh '%.80s' uses bone slot %u; the palette has %zu",
                              mesh.name.c_str(), influence.slot, model_from_bind.size());
-  const Result<SkinnedMesh> skinned = SkinnedMesh::create(source_of(mesh), model_from_bind.size());
+  const Result<SkinnedMesh> skinned =
+      SkinnedMesh::create(source_of(mesh), model_from_bind.size(), VertexGathering::none);
   if (!skinned) return skinned.error();
   Result<BonePalette> palette = BonePalette::create(model_from_bind.size(), morph_weights.size());
   if (!palette) return palette.error();

@@ -233,7 +233,8 @@ SkinnedMesh::~SkinnedMesh() = default;
 SkinnedMesh::SkinnedMesh(SkinnedMesh&&) noexcept = default;
 SkinnedMesh& SkinnedMesh::operator=(SkinnedMesh&&) noexcept = default;
 
-Result<SkinnedMesh> SkinnedMesh::create(const VertexSource& source, std::size_t slots) {
+Result<SkinnedMesh> SkinnedMesh::create(const VertexSource& source, std::size_t slots,
+                                        VertexGathering gathering) {
   if (const Status status = skinning::check_source(source, slots, 0); !status) return status;
   return or_out_of_memory([&]() -> Result<SkinnedMesh> {
     auto blocks = std::make_unique<skinning::Blocks>();
@@ -246,9 +247,13 @@ Result<SkinnedMesh> SkinnedMesh::create(const VertexSource& source, std::size_t 
     blocks->scratch.make_room(slots);
     blocks->movers.resize(slots + source.morph_targets.size());
     skinning::BlockBuilder builder(source, *blocks);
+    blocks->vertex_count = source.vertex_count;
+    if (gathering == VertexGathering::none) {
+      builder.append_in_order(0, source.vertex_count);
+      return SkinnedMesh(std::move(blocks));
+    }
     for (std::uint32_t v = 0; v < source.vertex_count; v += skinning::kWindow)
       builder.append_gathered(v, std::min(source.vertex_count, v + skinning::kWindow));
-    blocks->vertex_count = source.vertex_count;
     blocks->stream.shrink_to_fit();
     blocks->morphs.stream.shrink_to_fit();
     return SkinnedMesh(std::move(blocks));

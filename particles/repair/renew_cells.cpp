@@ -179,8 +179,10 @@ RewrittenFaces find_rewritten_faces(const TornModel& model, const Structure& str
     found.faces.push_back(face);
   };
   const auto sort_once = [&] {
-    // Of a face that several calls rewrote the first one has the points that are known.
-    std::ranges::stable_sort(found.faces, {}, &RewrittenFaces::Face::triangle);
+    // Of a face that several calls rewrote the first one has the points that are known. A single
+    // change of a single mesh lists them in order.
+    if (!std::ranges::is_sorted(found.faces, {}, &RewrittenFaces::Face::triangle))
+      std::ranges::stable_sort(found.faces, {}, &RewrittenFaces::Face::triangle);
     const auto same = [](const auto& a, const auto& b) { return a.triangle == b.triangle; };
     found.faces.erase(std::unique(found.faces.begin(), found.faces.end(), same), found.faces.end());
   };

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <new>
 #include <numeric>
+#include <span>
+
+#include "core/internal/sort_by_index.h"
 
 namespace sunder::scene {
 namespace {
@@ -101,9 +104,13 @@ void DrawTriangles::shorten_log() {
   if (log_.size() < next_shortening_) return;
   // The last one of several writes to a place counts. A reader who saw only a part of them is told
   // of all places again.
-  std::stable_sort(log_.begin(), log_.end(), [](const TriangleWrite& a, const TriangleWrite& b) {
-    return a.place < b.place;
-  });
+  std::vector<TriangleWrite> room;
+  sort_by_index(
+      std::span(log_), [](const TriangleWrite& of) { return of.place; },
+      [&] {
+        room.resize(log_.size());
+        return std::span(room);
+      });
   std::size_t kept = 0;
   for (std::size_t i = 0; i < log_.size(); ++i)
     if (i + 1 == log_.size() || log_[i + 1].place != log_[i].place) log_[kept++] = log_[i];

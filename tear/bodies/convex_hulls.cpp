@@ -2,13 +2,13 @@
 #include <sunder/skinning/deform.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <utility>
 
 #include "core/internal/out_of_memory.h"
 #include "skinning/internal/character_pose.h"
 #include "tear/bodies/hull_of_points.h"
+#include "tear/bodies/internal/main_bones.h"
 #include "tear/bodies/parts.h"
 #include "tear/bodies/qhull.h"
 
@@ -48,8 +48,9 @@ struct PosedSurface {
       positions.push_back(pose.position(mesh, v));
     for (const Triangle& triangle : mesh.triangles)
       triangles.push_back({triangle[0] + first, triangle[1] + first, triangle[2] + first});
+    bodies::MainBones main_bones(skin.bones.size());
     for (const Triangle& triangle : mesh.triangles)
-      bones.push_back(is_retired(triangle) ? kNone : main_bone(triangle, mesh.weights, skin));
+      bones.push_back(is_retired(triangle) ? kNone : main_bones.of(triangle, mesh.weights, skin));
   }
 };
 
@@ -113,34 +114,7 @@ Result<std::vector<ConvexHull>> convex_hulls(const Character& character, const M
 }
 
 std::uint32_t main_bone(const Triangle& triangle, const SkinWeights& weights, const Skin& skin) {
-  const auto sum_of = [&](std::uint32_t slot) {
-    float sum = 0;
-    for (const std::uint32_t vertex : triangle)
-      for (const Influence& influence : weights.of(vertex))
-        if (influence.slot == slot) sum += influence.weight;
-    return sum;
-  };
-  Influence most{kNone, 0.0f};
-  const auto compare = [&](const Influence& sum) {
-    if (sum.weight > most.weight || (sum.weight == most.weight && sum.slot < most.slot)) most = sum;
-  };
-  constexpr std::size_t kMostSums = 16;  // more bones are summed one by one
-  std::array<Influence, kMostSums> sums;
-  std::size_t count = 0;
-  for (const std::uint32_t vertex : triangle)
-    for (const Influence& influence : weights.of(vertex)) {
-      const auto end = sums.begin() + static_cast<std::ptrdiff_t>(count);
-      const auto known = std::find_if(
-          sums.begin(), end, [&](const Influence& sum) { return sum.slot == influence.slot; });
-      if (known != end)
-        known->weight += influence.weight;
-      else if (count < kMostSums)
-        sums[count++] = influence;
-      else
-        compare({influence.slot, sum_of(influence.slot)});
-    }
-  for (std::size_t i = 0; i < count; ++i) compare(sums[i]);
-  return skin.bones[most.slot];
+  return bodies::MainBones(skin.bones.size()).of(triangle, weights, skin);
 }
 
 }  // namespace sunder

@@ -1,6 +1,7 @@
 #include <sunder/bodies/mass_properties.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -17,30 +18,40 @@ constexpr double kFlat = 1e-9;
 /// Thickness of a shell without a given one, in square roots of its area.
 constexpr double kThickness = 0.01;
 
+/// The part of the integrals over an element that its size does not change: the triangle of three
+/// corners, or the tetrahedron whose fourth corner is the origin.
+struct ElementSums {
+  Vec3d total;
+  std::array<double, 6> products;  ///< xx, xy, xz, yy, yz, zz: rows of the upper triangle.
+
+  ElementSums(const Vec3d& a, const Vec3d& b, const Vec3d& c) : total(a + b + c) {
+    std::size_t k = 0;
+    for (int i = 0; i < 3; ++i)
+      for (int j = i; j < 3; ++j)
+        products[k++] = total[i] * total[j] + a[i] * a[j] + b[i] * b[j] + c[i] * c[j];
+  }
+};
+
 /// Integrals of 1, of p and of p p^T over tetrahedra or triangles.
 struct Integrals {
   double sum = 0;
   Vec3d first = Vec3d::Zero();
-  Mat3d second = Mat3d::Zero();
+  std::array<double, 6> second{};  ///< As ElementSums::products.
 
-  /// Adds an element with equal weight everywhere: a triangle, or a tetrahedron whose fourth corner
-  /// is the origin. Exact for polynomials of the second degree.
+  /// Adds an element with equal weight everywhere. Exact for polynomials of the second degree.
   /// @param size   its area or volume. @param corners  3 or 4, the origin included.
-  void add(double size, const Vec3d& a, const Vec3d& b, const Vec3d& c, double corners) {
-    const Vec3d total = a + b + c;
+  void add(double size, const ElementSums& of, double corners) {
     sum += size;
-    first += size / corners * total;
+    first += size / corners * of.total;
     const double part = size / (corners * (corners + 1));
-    for (int i = 0; i < 3; ++i)
-      for (int j = i; j < 3; ++j)
-        second(i, j) += part * (total[i] * total[j] + a[i] * a[j] + b[i] * b[j] + c[i] * c[j]);
+    for (std::size_t k = 0; k < 6; ++k) second[k] += part * of.products[k];
   }
-  void add_tetrahedron(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
-    add(dot(a, Vec3d(b.cross(c))) / 6, a, b, c, 4);
+  void add_tetrahedron(const Vec3d& a, const Vec3d& b, const Vec3d& c, const ElementSums& of) {
+    add(dot(a, Vec3d(b.cross(c))) / 6, of, 4);
   }
-  double add_triangle(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+  double add_triangle(const Vec3d& a, const Vec3d& b, const Vec3d& c, const ElementSums& of) {
     const double area = 0.5 * norm(Vec3d((b - a).cross(c - a)));
-    add(area, a, b, c, 3);
+    add(area, of, 3);
     return area;
   }
 };
@@ -54,20 +65,35 @@ struct LocalFrame {
   [[nodiscard]] Vec3d local(const Vec3d& position) const { return (position - origin) / unit; }
 };
 
-LocalFrame frame_of(std::span<const Vec3d> positions, std::span<const Triangle> triangles) {
+/// @param used  whether a triangle uses each position; those are finite.
+LocalFrame frame_of(std::span<const Vec3d> positions, const std::vector<std::uint8_t>& used) {
   Vec3d least = Vec3d::Constant(HUGE_VAL), most = Vec3d::Constant(-HUGE_VAL);
-  for (const Triangle& triangle : triangles) {
-    if (is_retired(triangle)) continue;
-    for (const std::uint32_t vertex : triangle) {
-      least = least.cwiseMin(positions[vertex]);
-      most = most.cwiseMax(positions[vertex]);
-    }
+  for (std::size_t v = 0; v < positions.size(); ++v) {
+    if (!used[v]) continue;
+    least = least.cwiseMin(positions[v]);
+    most = most.cwiseMax(positions[v]);
   }
   const double size = (0.5 * most - 0.5 * least).maxCoeff();
   return {0.5 * least + 0.5 * most, size > 0 ? size : 1.0};
 }
 
-Status check(std::span<const Vec3d> positions, std::span<const Triangle> triangles) {
+/// Marks the positions that triangles use. @return whether all of them exist and are finite.
+bool mark_used(std::span<const Vec3d> positions, std::span<const Triangle> triangles,
+               std::vector<std::uint8_t>& used) {
+  for (const Triangle& triangle : triangles) {
+    if (is_retired(triangle)) continue;
+    for (const std::uint32_t vertex : triangle) {
+      if (vertex >= positions.size()) return false;
+      used[vertex] = 1;
+    }
+  }
+  for (std::size_t v = 0; v < positions.size(); ++v)
+    if (used[v] && !positions[v].allFinite()) return false;
+  return true;
+}
+
+/// Names the first fault of a surface.
+Status describe_fault(std::span<const Vec3d> positions, std::span<const Triangle> triangles) {
   bool has_any = false;
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
     if (is_retired(triangles[t])) continue;
@@ -98,9 +124,10 @@ void write(const Integrals& of, const LocalFrame& frame, double thickness, doubl
   const Vec3d centre = of.sum != 0 ? Vec3d(of.first / of.sum) : Vec3d(Vec3d::Zero());
   mass.centre = frame.origin + unit * centre;
   Mat3d covariance;
+  std::size_t k = 0;
   for (int i = 0; i < 3; ++i)
     for (int j = i; j < 3; ++j)
-      covariance(i, j) = covariance(j, i) = of.second(i, j) - of.sum * centre[i] * centre[j];
+      covariance(i, j) = covariance(j, i) = of.second[k++] - of.sum * centre[i] * centre[j];
   const double scale = density * thickness * powers * unit * unit;
   mass.inertia = scale * (trace(covariance) * Mat3d::Identity() - covariance);
 }
@@ -125,17 +152,22 @@ Result<MassProperties> compute_mass(std::span<const Vec3d> positions,
                                     std::span<const Triangle> triangles,
                                     const MassOptions& options) {
   if (Status status = validate(options); !status) return status;
-  if (Status status = check(positions, triangles); !status) return status;
   return or_out_of_memory([&]() -> Result<MassProperties> {
-    const LocalFrame frame = frame_of(positions, triangles);
-    const auto local = [&](std::uint32_t vertex) { return frame.local(positions[vertex]); };
+    std::vector<std::uint8_t> used(positions.size(), 0);
+    if (!mark_used(positions, triangles, used) || std::ranges::count(used, 1) == 0)
+      return describe_fault(positions, triangles);
+    const LocalFrame frame = frame_of(positions, used);
+    std::vector<Vec3d> local;
+    local.reserve(positions.size());
+    for (const Vec3d& position : positions) local.push_back(frame.local(position));
     Integrals body, shell;
     MassProperties mass;
     for (const Triangle& triangle : triangles) {
       if (is_retired(triangle)) continue;
-      const Vec3d a = local(triangle[0]), b = local(triangle[1]), c = local(triangle[2]);
-      body.add_tetrahedron(a, b, c);
-      mass.area += shell.add_triangle(a, b, c);
+      const Vec3d &a = local[triangle[0]], &b = local[triangle[1]], &c = local[triangle[2]];
+      const ElementSums sums(a, b, c);
+      body.add_tetrahedron(a, b, c, sums);
+      mass.area += shell.add_triangle(a, b, c, sums);
     }
     const bodies::OpenEdges open = bodies::find_open_edges(positions, triangles);
     mass.holes = static_cast<std::uint32_t>(open.groups.size());
@@ -143,18 +175,19 @@ Result<MassProperties> compute_mass(std::span<const Vec3d> positions,
       Vec3d moment = Vec3d::Zero(), middle = Vec3d::Zero();
       double length = 0;
       for (const auto& [from, to] : edges) {
-        const Vec3d a = local(from), b = local(to);
+        const Vec3d &a = local[from], &b = local[to];
         const double of_edge = norm(Vec3d(b - a));
         moment += of_edge * 0.5 * (a + b);
         length += of_edge;
       }
       if (length > 0) middle = moment / length;
-      for (const auto& [from, to] : edges) body.add_tetrahedron(local(to), local(from), middle);
+      for (const auto& [from, to] : edges)
+        body.add_tetrahedron(local[to], local[from], middle, {local[to], local[from], middle});
     }
     if (body.sum < 0) {  // inside out
       body.sum = -body.sum;
       body.first = -body.first;
-      body.second = -body.second;
+      for (double& product : body.second) product = -product;
     }
     mass.rule = mass.holes == 0 ? SolidRule::closed : options.open_surfaces;
     if (!(body.sum > kFlat * mass.area * std::sqrt(mass.area))) mass.rule = SolidRule::shell;

@@ -58,23 +58,37 @@ std::vector<Edge> unmatched(std::span<const Triangle> triangles,
     bool is_reversed;
   };
   // The edges are put in order by their lesser vertices, of which few have the same.
-  std::vector<std::uint32_t> end_of(first.size() + 1, 0);
+  std::vector<std::uint32_t> begin_of(first.size() + 1, 0);
   const auto for_each_edge = [&](const auto& visit) {
     for (const Triangle& triangle : triangles) {
       if (is_retired(triangle)) continue;
+      const Triangle at = {first[triangle[0]], first[triangle[1]], first[triangle[2]]};
       for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t a = first[triangle[k]], b = first[triangle[(k + 1) % 3]];
+        const std::uint32_t a = at[k], b = at[k < 2 ? k + 1 : 0];
         if (a != b) visit(std::min(a, b), Directed{std::max(a, b), a > b});
       }
     }
   };
-  for_each_edge([&](std::uint32_t lesser, const Directed&) { ++end_of[lesser + 1]; });
-  for (std::size_t v = 1; v < end_of.size(); ++v) end_of[v] += end_of[v - 1];
-  std::vector<Directed> all(end_of.back());
-  for_each_edge([&](std::uint32_t lesser, const Directed& edge) { all[end_of[lesser]++] = edge; });
+  for_each_edge([&](std::uint32_t lesser, const Directed&) { ++begin_of[lesser + 1]; });
+  for (std::size_t v = 1; v < begin_of.size(); ++v) begin_of[v] += begin_of[v - 1];
+  std::vector<Directed> all(begin_of.back());
+  std::vector<std::uint32_t> end_of(begin_of.begin(), begin_of.end() - 1);
+  // Most edges meet their opposite among the last few of their vertex; the others are sorted.
+  constexpr std::uint32_t kLooked = 8;
+  for_each_edge([&](std::uint32_t lesser, const Directed& edge) {
+    std::uint32_t& end = end_of[lesser];
+    const std::uint32_t from = end - std::min(end - begin_of[lesser], kLooked);
+    for (std::uint32_t i = from; i < end; ++i)
+      if (all[i].greater == edge.greater && all[i].is_reversed != edge.is_reversed) {
+        all[i] = all[--end];
+        return;
+      }
+    all[end++] = edge;
+  });
   std::vector<Edge> left;
-  std::size_t begin = 0;
   for (std::uint32_t lesser = 0; lesser < first.size(); ++lesser) {
+    std::size_t begin = begin_of[lesser];
+    if (begin == end_of[lesser]) continue;
     std::sort(all.begin() + static_cast<std::ptrdiff_t>(begin),
               all.begin() + static_cast<std::ptrdiff_t>(end_of[lesser]),
               [](const Directed& a, const Directed& b) { return a.greater < b.greater; });

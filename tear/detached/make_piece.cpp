@@ -34,6 +34,8 @@ void freeze(const PosedPieceMesh& posed, const Vec3d& origin, const Affine3d& mo
   for (std::size_t v = 0; v < mesh.tangents.size(); ++v)
     mesh.tangents[v].head<3>() = normalized(into_frame(model_from_piece, posed.tangents[v]));
   mesh.weights = {};
+  mesh.weights.first.reserve(mesh.vertex_count() + std::size_t{1});
+  mesh.weights.influences.reserve(mesh.vertex_count());
   for (Index v = 0; v < mesh.vertex_count(); ++v)
     mesh.weights.append(std::array<Influence, 1>{{{0, 1.0f}}});
   mesh.morph_targets.clear();

@@ -1,10 +1,10 @@
 #include "tear/detached/piece_meshes.h"
 
-#include <sunder/bodies/convex_hulls.h>
-
 #include <algorithm>
+#include <memory>
 
 #include "core/internal/index_set.h"
+#include "tear/bodies/internal/main_bones.h"
 
 namespace sunder::tear {
 namespace {
@@ -24,6 +24,11 @@ std::vector<Value> gather(const std::vector<Value>& values, const std::vector<In
                           std::size_t per_element = 1) {
   std::vector<Value> gathered;
   if (values.empty()) return gathered;
+  if (per_element == 1) {
+    gathered.resize(old_from_new.size());
+    for (std::size_t i = 0; i < old_from_new.size(); ++i) gathered[i] = values[old_from_new[i]];
+    return gathered;
+  }
   gathered.reserve(per_element * old_from_new.size());
   for (const Index old : old_from_new) {
     const auto from = values.begin() + static_cast<std::ptrdiff_t>(per_element * old);
@@ -45,20 +50,33 @@ void copy_vertices(const Mesh& from, const std::vector<Index>& vertices, Mesh& t
     to.morph_targets.push_back({target.name, gather(target.position_deltas, vertices),
                                 gather(target.normal_deltas, vertices),
                                 gather(target.tangent_deltas, vertices)});
+  std::size_t influences = 0;
+  for (const Index vertex : vertices) influences += from.weights.of(vertex).size();
+  to.weights.first.reserve(vertices.size() + 1);
+  to.weights.influences.reserve(influences);
   for (const Index vertex : vertices) to.weights.append(from.weights.of(vertex));
 }
 
 /// Triangles with the new vertices, and the submeshes that they use.
-void copy_triangles(const Mesh& from, const std::vector<Index>& triangles, const IndexSet& vertices,
-                    Mesh& to) {
+void copy_triangles(const Mesh& from, const std::vector<Index>& triangles,
+                    const std::vector<Index>& vertices, Mesh& to) {
   to.triangles = gather(from.triangles, triangles);
   to.triangle_submesh = gather(from.triangle_submesh, triangles);
+  // Only entries of the piece are written, so that a small piece of a large mesh costs little.
+  const auto new_from_old = std::make_unique_for_overwrite<Index[]>(from.vertex_count());
+  for (std::size_t v = 0; v < vertices.size(); ++v)
+    new_from_old[vertices[v]] = static_cast<Index>(v);
   for (Triangle& triangle : to.triangles)
-    for (Index& vertex : triangle) vertex = vertices.place_of(vertex);
-  IndexSet submeshes(static_cast<Index>(from.submeshes.size()));
-  for (const Index submesh : to.triangle_submesh) submeshes.insert(submesh);
-  to.submeshes = gather(from.submeshes, submeshes.list());
-  for (Index& submesh : to.triangle_submesh) submesh = submeshes.place_of(submesh);
+    for (Index& vertex : triangle) vertex = new_from_old[vertex];
+  std::vector<Index> submeshes(from.submeshes.size(), kNone), used;
+  for (const Index submesh : to.triangle_submesh) submeshes[submesh] = 0;
+  for (Index submesh = 0; submesh < submeshes.size(); ++submesh) {
+    if (submeshes[submesh] == kNone) continue;
+    submeshes[submesh] = static_cast<Index>(used.size());
+    used.push_back(submesh);
+  }
+  to.submeshes = gather(from.submeshes, used);
+  for (Index& submesh : to.triangle_submesh) submesh = submeshes[submesh];
 }
 
 /// The triangles of a piece, per mesh of the model; the vertices are left out.
@@ -68,24 +86,30 @@ std::vector<DetachedPiece::OfMesh> make_triangle_maps(const std::vector<Index>& 
   std::vector<DetachedPiece::OfMesh> maps(meshes.size());
   for (const Index face : faces) {
     const TriangleRef ref = editor.surface().triangle(face);
-    const Mesh& mesh = meshes[ref.mesh];
     DetachedPiece::OfMesh& map = maps[ref.mesh];
     map.mesh = ref.mesh;
     map.triangle_old_from_new.push_back(ref.triangle);
     const Index* points = &editor.surface().corner_point[3 * face];
     map.old_points.push_back({points[0], points[1], points[2]});
-    const Skin& skin = editor.character().skins[mesh.skin];
-    map.bones.push_back(main_bone(mesh.triangles[ref.triangle], mesh.weights, skin));
   }
   std::erase_if(maps, [](const auto& map) { return map.triangle_old_from_new.empty(); });
+  for (DetachedPiece::OfMesh& map : maps) {
+    const Mesh& mesh = meshes[map.mesh];
+    const Skin& skin = editor.character().skins[mesh.skin];
+    bodies::MainBones main_bones(skin.bones.size());
+    map.bones.reserve(map.triangle_old_from_new.size());
+    for (const Index triangle : map.triangle_old_from_new)
+      map.bones.push_back(main_bones.of(mesh.triangles[triangle], mesh.weights, skin));
+  }
   return maps;
 }
 
-IndexSet vertices_of(const std::vector<Index>& triangles, const Mesh& mesh) {
+/// Ascending.
+std::vector<Index> vertices_of(const std::vector<Index>& triangles, const Mesh& mesh) {
   IndexSet vertices(mesh.vertex_count());
   for (const Index triangle : triangles)
     for (const Index vertex : mesh.triangles[triangle]) vertices.insert(vertex);
-  return vertices;
+  return vertices.list();
 }
 
 }  // namespace
@@ -102,10 +126,9 @@ PieceMeshes copy_meshes(const std::vector<Index>& faces, const SurfaceEditor& ed
     mesh.name = from.name;
     mesh.skin = place_in(piece.skins, from.skin);
     mesh.first_morph_weight = from.first_morph_weight;
-    IndexSet vertices = vertices_of(map.triangle_old_from_new, from);
-    map.vertex_old_from_new = vertices.list();
+    map.vertex_old_from_new = vertices_of(map.triangle_old_from_new, from);
     copy_vertices(from, map.vertex_old_from_new, mesh);
-    copy_triangles(from, map.triangle_old_from_new, vertices, mesh);
+    copy_triangles(from, map.triangle_old_from_new, map.vertex_old_from_new, mesh);
   }
   return piece;
 }

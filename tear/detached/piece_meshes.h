@@ -13,7 +13,8 @@ struct PieceMeshes {
   std::vector<Index> skins;  ///< Of the model, ascending.
 };
 
-/// @param faces  ascending. O(faces), and two bits per vertex of the mesh. @throws std::bad_alloc
+/// @param faces  ascending. O(faces), and two bits per vertex of the mesh; memory for an index per
+/// vertex. @throws std::bad_alloc
 [[nodiscard]] PieceMeshes copy_meshes(const std::vector<Index>& faces, const SurfaceEditor& editor);
 
 /// The positions per influence of those vertices of a piece's mesh that have some.

@@ -21,7 +21,7 @@ Status pose_mesh(const Mesh& mesh, const InfluencePositions& exact, const BonePa
   posed.tangents.resize(mesh.tangents.size());
   VertexSource source = source_of(mesh);
   if (!exact.vertices.empty()) source.per_influence = &exact;
-  const Result<SkinnedMesh> skinned = SkinnedMesh::create(source, slots);
+  const Result<SkinnedMesh> skinned = SkinnedMesh::create(source, slots, VertexGathering::none);
   if (!skinned) return skinned.error();
   PosedBuffer buffer({mesh.vertex_count(), floats_of(posed.positions), floats_of(posed.normals),
                       floats_of(posed.tangents), true});

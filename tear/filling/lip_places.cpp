@@ -31,7 +31,7 @@ class RimPlaces {
     if (rim_.is_closed && rotate_to_first()) locate();
     measure();
     if (!find_walls()) return std::move(places_);
-    const BladeDirections directions(stroke_, builder_.scratch());
+    BladeDirections directions(stroke_, builder_.scratch());
     for (std::size_t i = 0; i <= count(); ++i)
       if (is_near_wall(i)) direct(i, directions);
     find_lean();
@@ -179,7 +179,7 @@ class RimPlaces {
     }
   }
 
-  void direct(std::size_t i, const BladeDirections& directions) {
+  void direct(std::size_t i, BladeDirections& directions) {
     LipPlace& place = places_[i];
     const std::size_t in = before(i), out = after(i);
     Vec3d across = Vec3d::Zero(), normal = Vec3d::Zero();

@@ -27,14 +27,16 @@ struct TriangleCrossing {
   const Vec3d ab = corners[1] - corners[0], ac = corners[2] - corners[0];
   const Vec3d h = way.cross(ac);
   const double determinant = dot(ab, h);
-  if (!(std::abs(determinant) > kAlongFaceLengths * norm(ab) * norm(ac) * norm(way)))
-    return std::nullopt;
   const Vec3d from_corner = base - corners[0];
+  // Most triangles are missed beside their first edges; numbers that are not finite are found
+  // below.
   const double u = dot(from_corner, h) / determinant;
-  if (!(u >= -kHitBarycentric)) return std::nullopt;
+  if (u < -kHitBarycentric || u > 1 + 4 * kHitBarycentric) return std::nullopt;
   const Vec3d q = from_corner.cross(ab);
   const double v = dot(way, q) / determinant;
-  if (!(v >= -kHitBarycentric && u + v <= 1 + kHitBarycentric)) return std::nullopt;
+  if (v < -kHitBarycentric || u + v > 1 + kHitBarycentric) return std::nullopt;
+  if (!(std::abs(determinant) > kAlongFaceLengths * norm(ab) * norm(ac) * norm(way)))
+    return std::nullopt;
   return TriangleCrossing{u, v, dot(ac, q) / determinant, determinant > 0};
 }
 

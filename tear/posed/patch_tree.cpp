@@ -21,8 +21,8 @@ struct GrowingBox {
   GrowingBox() { least.fill(std::numeric_limits<float>::infinity()); }
   explicit GrowingBox(const Vec3f& p) : least{p.x(), p.y(), p.z(), 0, -p.x(), -p.y(), -p.z(), 0} {}
   void extend(const GrowingBox& other) {
-    for (std::size_t i = 0; i < 8; ++i)
-      least[i] = other.least[i] < least[i] ? other.least[i] : least[i];
+    const std::array<float, 8> a = other.least, b = least;  // copies are no aliases
+    for (std::size_t i = 0; i < 8; ++i) least[i] = a[i] < b[i] ? a[i] : b[i];
   }
   [[nodiscard]] float low(std::size_t axis) const { return least[axis]; }
   [[nodiscard]] float high(std::size_t axis) const { return -least[4 + axis]; }
@@ -32,6 +32,44 @@ struct GrowingBox {
   void widen() {
     for (float& value : least) value -= kNewVertexCoordinates * std::abs(value);
   }
+};
+
+/// The corners of a group of triangles, by their vertices, of which most are at several corners:
+/// the influences of each are read once.
+class GroupCorners {
+ public:
+  struct OfVertex {
+    Index vertex;
+    Index corners;         ///< How many corners are at it.
+    GrowingBox triangles;  ///< Around the triangles of these corners.
+  };
+
+  void clear() {
+    slots_.fill(kNone);
+    vertices_.clear();
+  }
+  void add(Index vertex, const GrowingBox& triangle) {
+    std::size_t at = vertex * 0x9E3779B1u >> (32 - kSlotBits);
+    for (; slots_[at] != kNone; at = (at + 1) % kSlots)
+      if (vertices_[slots_[at]].vertex == vertex) {
+        OfVertex& known = vertices_[slots_[at]];
+        ++known.corners;
+        known.triangles.extend(triangle);
+        return;
+      }
+    slots_[at] = static_cast<Index>(vertices_.size());
+    vertices_.push_back({vertex, 1, triangle});
+  }
+  /// In the order in which they came.
+  [[nodiscard]] std::span<const OfVertex> vertices() const { return vertices_; }
+
+ private:
+  static constexpr std::uint32_t kSlotBits = 8;
+  static constexpr std::size_t kSlots = std::size_t{1} << kSlotBits;
+  static_assert(kSlots > 3 * PatchTree::kGroupSize);
+
+  std::array<Index, kSlots> slots_;  ///< Indices of vertices_, at the hashes of the vertices.
+  std::vector<OfVertex> vertices_;
 };
 
 /// The triangles in the order of their centres along a Hilbert curve through bind space.
@@ -97,28 +135,26 @@ class PatchTree::Builder {
 
   void add_group(std::span<const Triangle> triangles, std::span<const Index> order) {
     box_ = {};
-    std::uint32_t stamp = 0;
-    std::size_t most_influences = 0;
     std::array<GrowingBox, kPatchesPerGroup> patches;
-    for (const Index t : order) {
-      const Triangle& triangle = triangles[t];
+    corners_.clear();
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      const Triangle& triangle = triangles[order[i]];
       GrowingBox of_triangle(mesh_.positions[triangle[0]]);
       of_triangle.extend(GrowingBox(mesh_.positions[triangle[1]]));
       of_triangle.extend(GrowingBox(mesh_.positions[triangle[2]]));
-      patches[stamp / kPatchSize].extend(of_triangle);
-      ++stamp;
-      for (const Index vertex : triangle) {
-        const auto influences = mesh_.weights.of(vertex);
-        most_influences = std::max(most_influences, influences.size());
-        for (const Influence& influence : influences) {
-          Moved& moved = moved_by(influence.slot);
-          ++moved.corners;
-          moved.least = std::min(moved.least, influence.weight);
-          moved.greatest = std::max(moved.greatest, influence.weight);
-          if (moved.stamp == stamp) continue;
-          moved.stamp = stamp;
-          moved.box.extend(of_triangle);
-        }
+      patches[i / kPatchSize].extend(of_triangle);
+      for (const Index vertex : triangle) corners_.add(vertex, of_triangle);
+    }
+    std::size_t most_influences = 0;
+    for (const GroupCorners::OfVertex& of : corners_.vertices()) {
+      const auto influences = mesh_.weights.of(of.vertex);
+      most_influences = std::max(most_influences, influences.size());
+      for (const Influence& influence : influences) {
+        Moved& moved = moved_by(influence.slot);
+        moved.corners += of.corners;
+        moved.least = std::min(moved.least, influence.weight);
+        moved.greatest = std::max(moved.greatest, influence.weight);
+        moved.box.extend(of.triangles);
       }
     }
     const double slack = kWeightSumPerInfluence * static_cast<double>(most_influences + 1);
@@ -194,7 +230,6 @@ class PatchTree::Builder {
   struct Moved {
     Index slot = 0;
     Index corners = 0;  ///< Number of corners that the bone moves; of a parent, number of children.
-    std::uint32_t stamp = 0;
     float least = std::numeric_limits<float>::infinity(), greatest = 0;
     std::uint16_t least_parts = 0, greatest_parts = 0;
     GrowingBox box;
@@ -273,6 +308,7 @@ class PatchTree::Builder {
   PatchTree& tree_;
   std::vector<Index> targets_;        ///< The targets that displace positions.
   GrowingBox box_;                    ///< Of the node.
+  GroupCorners corners_;              ///< Of the group.
   std::vector<Moved> moved_;          ///< One per bone that moves the node.
   std::vector<Index> place_of_slot_;  ///< Index into moved_.
 };

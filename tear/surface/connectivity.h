@@ -30,6 +30,10 @@ class Connectivity {
     const TriangleRef ref = columns_.surface.triangle(corner / 3);
     character_.meshes[ref.mesh].triangles[ref.triangle][corner % 3] = vertex;
   }
+  void set_vertices(Index triangle, const Triangle& vertices) {
+    const TriangleRef ref = columns_.surface.triangle(triangle);
+    character_.meshes[ref.mesh].triangles[ref.triangle] = vertices;
+  }
   /// Joins two half-edges as twins, or makes one a border if `b` is kNone.
   void join(Index a, Index b) {
     columns_.surface.twin[a] = b;

@@ -140,10 +140,10 @@ void retire_triangle(Index triangle, SurfaceEditor& editor) {
   editor.room.make_for_changes(1);
   editor.log.keep(triangle);
   const Index vertex = connectivity.vertices_of(triangle)[0];
-  for (Index k = 0; k < 3; ++k) {
-    connectivity.set_corner(3 * triangle + k, kNone, vertex);
-    surface.twin[3 * triangle + k] = kNone;
-  }
+  connectivity.set_vertices(triangle, {vertex, vertex, vertex});
+  const auto first = static_cast<std::ptrdiff_t>(3 * triangle);
+  std::fill_n(surface.corner_point.begin() + first, 3, kNone);
+  std::fill_n(surface.twin.begin() + first, 3, kNone);
 }
 
 }  // namespace sunder::tear

@@ -1,43 +1,19 @@
 #pragma once
 
-#include <sunder/core/index.h>
-
-#include <algorithm>
-#include <array>
-#include <cstdint>
-#include <utility>
-
+#include "core/internal/sort_by_index.h"
 #include "tear/surface/scratch_memory.h"
 
 namespace sunder::tear {
 
-/// Sorts items by key_of(item), an index. Items with the same key stay in order. It sorts byte by
-/// byte: comparisons of random indices cannot be predicted, which costs more than the rest.
+/// As sunder::sort_by_index(), in scratch memory.
 template <class Item, class KeyOf>
 void sort_by_index(ScratchVector<Item>& items, KeyOf key_of, ScratchMemory& memory) {
-  constexpr std::size_t kValues = 256;
-  const auto is_before = [&](const Item& a, const Item& b) { return key_of(a) < key_of(b); };
-  if (std::is_sorted(items.begin(), items.end(), is_before)) return;
   const ScratchMemory::Frame memory_of_step(memory);
-  Index differing = 0;  // the bits in which any two keys differ
-  for (const Item& item : items) differing |= key_of(item) ^ key_of(items.front());
-  ScratchVector<Item> sorted(items, &memory);
-  Item *from = items.data(), *to = sorted.data();
-  for (int shift = 0; shift < 32; shift += 8) {
-    if ((differing >> shift & (kValues - 1)) == 0) continue;
-    const auto place_of = [&](const Item& item) { return key_of(item) >> shift & (kValues - 1); };
-    std::array<std::uint32_t, kValues> places = {};
-    for (std::size_t i = 0; i < items.size(); ++i) ++places[place_of(from[i])];
-    std::uint32_t first = 0;
-    for (std::uint32_t& place : places) {
-      const std::uint32_t count = place;
-      place = first;
-      first += count;
-    }
-    for (std::size_t i = 0; i < items.size(); ++i) to[places[place_of(from[i])]++] = from[i];
-    std::swap(from, to);
-  }
-  if (from != items.data()) std::copy(from, from + items.size(), items.begin());
+  ScratchVector<Item> room(&memory);
+  sunder::sort_by_index(std::span<Item>(items), key_of, [&] {
+    room.resize(items.size());
+    return std::span<Item>(room);
+  });
 }
 
 }  // namespace sunder::tear

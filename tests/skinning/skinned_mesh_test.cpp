@@ -136,6 +136,13 @@ TEST(SkinnedMesh, a_vertex_has_the_same_bits_at_any_index) {
         for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v)
           ASSERT_TRUE(other_posed.is_same(v, posed, order[v])) << "vertex " << v;
       }
+      const auto in_order = SkinnedMesh::create(source_of(mesh), kind.slots, VertexGathering::none);
+      ASSERT_TRUE(in_order);
+      PosedArrays posed_in_order(mesh);
+      PosedBuffer buffer_in_order(posed_in_order.target());
+      write(*in_order, palette, buffer_in_order);
+      for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v)
+        ASSERT_TRUE(posed_in_order.is_same(v, posed, v)) << "not gathered, vertex " << v;
     }
 }
 

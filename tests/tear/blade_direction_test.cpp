@@ -42,7 +42,7 @@ TEST(BladeDirections, are_those_of_all_blades_within_a_degree) {
   for (const std::size_t blades : {2, 31, 32, 33, 64, 500}) {
     const Stroke stroke = winding_stroke(random, blades);
     ScratchMemory scratch;
-    const BladeDirections directions(stroke, scratch);
+    BladeDirections directions(stroke, scratch);
     std::uniform_real_distribution<double> near(-0.1, 0.1);
     for (int k = 0; k < 100; ++k) {
       const Blade& blade = stroke[random() % blades];
@@ -60,7 +60,7 @@ TEST(BladeDirections, at_a_blade_are_its_own) {
   std::mt19937 random(12);
   const Stroke stroke = winding_stroke(random, 100);
   ScratchMemory scratch;
-  const BladeDirections directions(stroke, scratch);
+  BladeDirections directions(stroke, scratch);
   for (const Blade& blade : stroke) {
     const Vec3d direction = (blade.tip - blade.base).normalized();
     EXPECT_GE(directions.at(blade.base).dot(direction), 1 - 1e-12);

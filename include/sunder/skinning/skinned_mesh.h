@@ -59,6 +59,12 @@ class SUNDER_API PosedBuffer {
   skinning::ReleasedVertices released_;
 };
 
+/// Whether a mesh may gather its vertices by their bones.
+enum class VertexGathering : std::uint8_t {
+  allowed,  ///< Poses faster. To be preferred for meshes that are posed again and again.
+  none,     ///< Vertices keep their order. Takes a third of the time to create.
+};
+
 /// A mesh prepared for skinning: blocks of 16 vertices, each with the bones that move any of them.
 ///
 /// Const functions are reentrant. update() and reserve() must not run at the same time as any other
@@ -67,13 +73,15 @@ class SUNDER_API SkinnedMesh {
  public:
   /// Vertices keep their order if neighbours share bones; otherwise up to 4,096 at a time are
   /// gathered by their bones and scattered when written. order_for_skinning() avoids the second,
-  /// slower case.
+  /// slower case. Posed vertices have the same bits in any order.
   /// @param source  read during the call only.
   /// @param slots   number of slots of the skin.
   /// @return size_mismatch, index_out_of_range, non_finite_value, weights_not_normalized (by more
   /// than 1 %), with the vertex; empty_input without positions or influences; invalid_argument for
   /// strides; limit_exceeded above 65,536 slots or out of memory. O(V x influences), allocates.
-  [[nodiscard]] static Result<SkinnedMesh> create(const VertexSource& source, std::size_t slots);
+  [[nodiscard]] static Result<SkinnedMesh> create(
+      const VertexSource& source, std::size_t slots,
+      VertexGathering gathering = VertexGathering::allowed);
   ~SkinnedMesh();
   SkinnedMesh(SkinnedMesh&&) noexcept;
   SkinnedMesh& operator=(SkinnedMesh&&) noexcept;
