@@ -86,10 +86,10 @@ namespace Sunder
       return bone;
     }
 
-    public Mesh GetMesh(int index)
+    public MeshView GetMesh(int index)
     {
       Check(index, data.MeshCount);
-      return new Mesh(data.Meshes[index], epoch, epoch);
+      return new MeshView(data.Meshes[index], epoch, epoch);
     }
 
     /// <summary>Per slot: a bone.</summary>

@@ -140,12 +140,12 @@ namespace Sunder
     }
 
     /// <summary>The torn mesh in bind space, with all attributes and weights.</summary>
-    public Mesh GetMesh(int mesh = 0)
+    public MeshView GetMesh(int mesh = 0)
     {
       Native.Mesh view;
       Scene.MeshTables.Advance();
       Check(NativeCalls.sunder_get_instance_mesh(SceneNumber, Id, (uint)mesh, &view));
-      return new Mesh(view, Scene.Drawing, Scene.MeshTables);
+      return new MeshView(view, Scene.Drawing, Scene.MeshTables);
     }
 
     /// <summary>Vertices are posed into memory of the caller, which stays until another is set, or the instance is destroyed.</summary>

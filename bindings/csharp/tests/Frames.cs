@@ -75,7 +75,7 @@ namespace Sunder.Tests
         Upload(mesh);
         seen = mesh.Epoch;
         Vertices = mesh.VertexCount;
-        Mesh bind = who.GetMesh();
+        MeshView bind = who.GetMesh();
         Expect.That(bind.Positions.Count == 3 * mesh.VertexCount && bind.FirstInfluence.Count == mesh.VertexCount + 1, "vertices");
         Expect.That(scene.Drawn.Count <= 1 && scene.Stats.Frame > 0 && who.TissueInfo.ParticleCount > 0, "figures");
         if (frame % 40 == 39) who.Undo();

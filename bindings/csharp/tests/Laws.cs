@@ -89,7 +89,7 @@ namespace Sunder.Tests
     {
       int source = character.GetMesh(0).VertexCount;
       VertexOrigin[] origins = torn.GetVertexOrigins(0, source);
-      Mesh mesh = torn.GetMesh();
+      MeshView mesh = torn.GetMesh();
       FloatView positions = mesh.Positions;
       UIntView triangles = character.GetMesh(0).Triangles;
       Expect.Equal(origins.Length, mesh.VertexCount - source, "origins");
@@ -138,7 +138,7 @@ namespace Sunder.Tests
         Expect.Equal(TornDigest(copy), TornDigest(character), "digest of a copy");
     }
 
-    static MeshArrays Copy(Mesh mesh)
+    static MeshArrays Copy(MeshView mesh)
     {
       MeshArrays copy = new MeshArrays {
         Name = mesh.Name, Skin = mesh.Skin, Positions = mesh.Positions.ToArray(), FirstInfluence = mesh.FirstInfluence.ToArray(),

@@ -26,7 +26,7 @@ namespace Sunder.Tests
       Expect.Throws<ObjectDisposedException>(() => command.Result.Check(), "Scene");
       Character copy = Character.FromGlb(character.ToGlb());
       CharacterAsset asset = new CharacterAsset(copy);
-      Mesh mesh = copy.GetMesh(0);
+      MeshView mesh = copy.GetMesh(0);
       copy.Dispose();
       Expect.Throws<ObjectDisposedException>(() => mesh.Positions[0].ToString(), "Character");
       Expect.Throws<ObjectDisposedException>(() => mesh.UvSet(0), "Character");
@@ -45,7 +45,7 @@ namespace Sunder.Tests
       Instance instance = Spawn(character);
       FloatView positions = instance.GetPosedMesh().Positions;
       PosedMesh posed = instance.GetPosedMesh();
-      Mesh first = instance.GetMesh();
+      MeshView first = instance.GetMesh();
       UIntView triangles = first.Triangles;
       Expect.That(positions[0] == posed.Positions[0] && first.UvSet(0).Count > 0, "fresh views are read");
       instance.GetMesh();

@@ -3,14 +3,14 @@ using System;
 namespace Sunder
 {
   /// <summary>A triangle mesh in bind space with one skin. Its arrays are views on the library's memory.</summary>
-  public readonly unsafe struct Mesh
+  public readonly unsafe struct MeshView
   {
     readonly Native.Mesh raw;
     readonly Moment arrays;
     readonly Moment tables;
 
     /// <summary>tables: of the pointers to arrays in the struct, which may have a shorter life.</summary>
-    internal Mesh(Native.Mesh raw, Epoch arrays, Epoch tables)
+    internal MeshView(Native.Mesh raw, Epoch arrays, Epoch tables)
     {
       this.raw = raw;
       this.arrays = arrays.Now;
