@@ -67,6 +67,8 @@ namespace Sunder.Tests
 
     static void Print(string folder, int number, TextWriter to)
     {
+      SceneOptions one = SceneOptions.Default;
+      one.Threads = 1;  // scenes of the C program have more: the bits are the same
       TissueMaterial weak = Tissue.Find("skin");
       weak.Strength = 1.2;
       AssetOptions options = AssetOptions.Default;
@@ -75,8 +77,6 @@ namespace Sunder.Tests
       options.Gravity.Y = -9.81;
       using (Character character = Character.FromGlb(File.ReadAllBytes(Path.Combine(folder, number + ".glb"))))
       using (CharacterAsset asset = new CharacterAsset(character, options, new[] { weak }))
-      SceneOptions one = SceneOptions.Default;
-      one.Threads = 1;  // those of C have more: the bits are the same
       using (Scene scene = new Scene(one), again = new Scene(one))
       {
         Instance who = scene.Spawn(asset);
