@@ -122,15 +122,7 @@ namespace Sunder.Tests
     /// <summary>A copy of a character by its arrays tears like the character.</summary>
     internal static void Arrays(Character character)
     {
-      CharacterArrays arrays = new CharacterArrays { Name = character.Name, Bones = new BoneArrays[character.BoneCount] };
-      for (int i = 0; i < character.BoneCount; ++i)
-      {
-        Bone bone = character.GetBone(i);
-        arrays.Bones[i] = new BoneArrays { Name = bone.Name, Parent = bone.Parent, Rest = bone.Rest };
-      }
-      arrays.Skins = new SkinArrays[character.SkinCount];
-      for (int i = 0; i < arrays.Skins.Length; ++i)
-        arrays.Skins[i] = new SkinArrays { Bones = character.GetSkinBones(i).ToArray(), BoneFromBind = character.GetBoneFromBind(i).ToArray() };
+      CharacterArrays arrays = new CharacterArrays { Name = character.Name, Bones = BonesOf(character), Skins = SkinsOf(character) };
       arrays.Meshes = new MeshArrays[character.MeshCount];
       for (int i = 0; i < arrays.Meshes.Length; ++i) arrays.Meshes[i] = Copy(character.GetMesh(i));
       arrays.RestMorphWeights = character.RestMorphWeights.ToArray();
@@ -221,6 +213,114 @@ namespace Sunder.Tests
         skin.Thickness = 0.004;
         skin.Greatest = 10;
         Expect.That(Tissue.BladeForce(skin, 0.01, 0.01, new Vector3d(0, 0.01, 0)).Y < 0, "force");
+      }
+    }
+
+    /// <summary>A tube without weights of its own gets those of the tube.</summary>
+    internal static void Transfers(Character tube)
+    {
+      MeshArrays mesh = Copy(tube.GetMesh(0));
+      for (int v = 0; v + 1 < mesh.FirstInfluence.Length; ++v) mesh.FirstInfluence[v + 1] = (uint)v + 1;
+      mesh.Influences = new Influence[mesh.Positions.Length / 3];
+      for (int v = 0; v < mesh.Influences.Length; ++v) mesh.Influences[v].Weight = 1;
+      bool[] locked = new bool[mesh.Influences.Length];
+      locked[locked.Length - 1] = true;
+      using (Character bare = Character.FromArrays(new CharacterArrays { Bones = BonesOf(tube), Skins = SkinsOf(tube), Meshes = new[] { mesh } }))
+      using (SkinTransfer made = SkinTransfer.Make(tube, bare, null, new Dictionary<string, string> { { "bone0", "bone0" } }, null, locked))
+      {
+        Expect.That(made.Info.Coincident > 0 && made.Info.Locked == 1, "vertices");
+        Expect.Equal(made.Outcomes[locked.Length - 1], TransferOutcome.Locked, "outcome of the locked vertex");
+        int others = 0;
+        for (int v = 0; v < locked.Length; ++v)
+          if (Math.Abs(FirstBoneWeight(made.Character, v) - FirstBoneWeight(tube, v)) > 1e-6) ++others;
+        // The locked one, and the vertex of the same place beyond the seam.
+        Expect.That(others <= 2 && FirstBoneWeight(made.Character, locked.Length - 1) == 1, "vertices with other weights: " + others);
+        Expect.Throws<ArgumentException>(() => SkinTransfer.Make(tube, bare, null, null, null, new bool[3]), "locked has 3");
+        Expect.Throws<SunderException>(() => SkinTransfer.Make(tube, bare, null, null, new[] { "no such bone" }), "no such bone");
+      }
+    }
+
+    static double FirstBoneWeight(Character character, int vertex)
+    {
+      MeshView mesh = character.GetMesh(0);
+      double weight = 0;
+      for (uint i = mesh.FirstInfluence[vertex]; i < mesh.FirstInfluence[vertex + 1]; ++i)
+        if (mesh.Influences[(int)i].Slot == 0) weight += mesh.Influences[(int)i].Weight;
+      return weight;
+    }
+
+    static BoneArrays[] BonesOf(Character character)
+    {
+      BoneArrays[] bones = new BoneArrays[character.BoneCount];
+      for (int i = 0; i < bones.Length; ++i)
+      {
+        Bone bone = character.GetBone(i);
+        bones[i] = new BoneArrays { Name = bone.Name, Parent = bone.Parent, Rest = bone.Rest };
+      }
+      return bones;
+    }
+
+    static SkinArrays[] SkinsOf(Character character)
+    {
+      SkinArrays[] skins = new SkinArrays[character.SkinCount];
+      for (int i = 0; i < skins.Length; ++i)
+        skins[i] = new SkinArrays { Bones = character.GetSkinBones(i).ToArray(), BoneFromBind = character.GetBoneFromBind(i).ToArray() };
+      return skins;
+    }
+
+    /// <summary>A clip of arrays plays, also after a file.</summary>
+    internal static void Clips(Character tube)
+    {
+      ChannelArrays up = new ChannelArrays { Target = ChannelTarget.Translation, Index = 1, Times = new float[] { 0, 2 }, Values = new float[] { 0, 1, 0, 0, 3, 0 } };
+      ChannelArrays smooth = new ChannelArrays { Target = ChannelTarget.Scale, Index = 0, Interpolation = Interpolation.Cubic, Times = new float[] { 0, 2 },
+        Values = new float[] { 0, 0, 0, 1, 1, 1, 0, 0, 0, 0, 0, 0, 2, 2, 2, 0, 0, 0 } };
+      CharacterArrays arrays = new CharacterArrays { Bones = BonesOf(tube), Skins = SkinsOf(tube), Meshes = new[] { Copy(tube.GetMesh(0)) },
+        Clips = new[] { new ClipArrays { Name = "grow", Duration = 2, Channels = new[] { up, smooth } } } };
+      using (Character made = Character.FromArrays(arrays))
+      using (Character read = Character.FromGlb(made.ToGlb()))
+        foreach (Character character in new[] { made, read })
+        {
+          Expect.Equal(character.FindClip("grow") + " " + character.GetClipName(0) + " " + character.GetClipDuration(0), "0 grow 2", "the clip");
+          BoneTransform[] pose = new BoneTransform[character.BoneCount];
+          character.SampleClip(0, 1, pose);
+          Expect.Near(pose[character.FindBone("bone1")].Translation.Y, 2, 1e-6, "half way");
+          Expect.Near(pose[character.FindBone("bone0")].Scale.X, 1.5, 1e-6, "half way along a cubic");
+          double[] matrices = new double[12 * character.BoneCount];
+          character.ComputeMatrices(pose, matrices);
+          Instance instance = new Scene().Spawn(new CharacterAsset(character));
+          LayerOptions options = LayerOptions.Default;
+          options.Time = 1;
+          options.Speed = 0;
+          Layer layer = instance.Play("grow", options);
+          instance.Scene.Update(0);
+          for (int i = 0; i < matrices.Length; ++i) Expect.Near(instance.Matrices[i], matrices[i], 1e-6, "matrix");
+          Expect.Near(layer.State.Time, 1, 1e-6, "time of the layer");
+          Expect.Throws<ArgumentException>(() => { up.Values = new float[5]; Character.FromArrays(arrays); }, "clip 0: channel 0: Values has 5");
+          up.Values = new float[] { 0, 1, 0, 0, 3, 0 };
+        }
+    }
+
+    /// <summary>Vertices are posed into memory of the program, with a stride.</summary>
+    internal static void VertexTargets(Character tube)
+    {
+      using (Scene scene = new Scene())
+      {
+        CharacterAsset asset = new CharacterAsset(tube);
+        Instance own = scene.Spawn(asset), other = scene.Spawn(asset);
+        int count = tube.GetMesh(0).VertexCount;
+        float[] buffer = new float[5 * count];
+        fixed (float* first = buffer)
+        {
+          VertexTarget target = VertexTarget.Default;
+          target.Positions = first;
+          target.PositionStride = 20;
+          target.VertexCount = (uint)count;
+          own.SetVertexTarget(0, target);
+          scene.Update(0);
+          FloatView positions = other.GetPosedMesh().Positions;
+          for (int i = 0; i < 3 * count; ++i) Expect.Equal(buffer[5 * (i / 3) + i % 3], positions[i], "number " + i);
+          own.SetVertexTarget(0, VertexTarget.Default);
+        }
       }
     }
 

@@ -53,6 +53,9 @@ namespace Sunder.Tests
           foreach (string file in Directory.GetFiles(arguments[1], "*.glb"))
             Run("arrays of " + Path.GetFileName(file), () => { using (Character character = Character.FromGlb(File.ReadAllBytes(file))) Laws.Arrays(character); });
           Run("tissues", () => Laws.Tissues(tube));
+          Run("transfers", () => Laws.Transfers(tube));
+          Run("clips", () => Laws.Clips(tube));
+          Run("vertex targets", () => Laws.VertexTargets(tube));
           Run("finalizers", () => Laws.Finalizers(glb));
           Run("threads", () => Laws.Threads(tube));
           Run("disposed objects", () => Misuse.DisposedObjects(tube));

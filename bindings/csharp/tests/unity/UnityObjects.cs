@@ -15,9 +15,6 @@ namespace UnityEngine
   [AttributeUsage(AttributeTargets.Class)] public sealed class RequireComponent : Attribute { public RequireComponent(Type type) { } }
   [AttributeUsage(AttributeTargets.Class)] public sealed class DisallowMultipleComponent : Attribute { }
 
-  [Flags] public enum HideFlags { None = 0, DontSave = 52, HideAndDontSave = 61 }
-
-  public static class Application { public static bool isPlaying { get { return true; } } }
   public static class Time { public static float deltaTime = 1f / 60; }
   public static class Debug { public static void Log(object message) { Console.WriteLine(message); } }
 
@@ -25,7 +22,6 @@ namespace UnityEngine
   {
     bool isDestroyed;
     public string name { get; set; }
-    public HideFlags hideFlags { get; set; }
 
     /// <summary>As in Unity, one that was destroyed equals null.</summary>
     public static bool operator ==(Object a, Object b)
@@ -207,12 +203,15 @@ namespace UnityEngine
     public Vector3 position { get { return parent == null ? localPosition : parent.localToWorldMatrix.MultiplyPoint3x4(localPosition); } }
     public Quaternion rotation { get { return parent == null ? localRotation : parent.rotation * localRotation; } }
     public Vector3 TransformPoint(Vector3 p) { return localToWorldMatrix.MultiplyPoint3x4(p); }
-    /// <summary>Of one without a parent.</summary>
+    public void SetParent(Transform to, bool worldPositionStays)
+    {
+      if (worldPositionStays) throw new NotSupportedException();
+      parent = to;
+    }
     public void SetPositionAndRotation(Vector3 p, Quaternion r)
     {
-      if (parent != null) throw new NotSupportedException();
-      localPosition = p;
-      localRotation = r;
+      localPosition = parent == null ? p : parent.worldToLocalMatrix.MultiplyPoint3x4(p);
+      localRotation = parent == null ? r : Quaternion.Inverse(parent.rotation) * r;
     }
   }
 

@@ -19,8 +19,8 @@ namespace Sunder.Unity
       internal uint Bone0, Bone1, Bone2, Bone3;
     }
 
-    const MeshUpdateFlags Flags = MeshUpdateFlags.DontRecalculateBounds | MeshUpdateFlags.DontValidateIndices | MeshUpdateFlags.DontNotifyMeshUsers
-      | MeshUpdateFlags.DontResetBoneBounds;
+    // Bounds are set by hand, and indices are the library's.
+    const MeshUpdateFlags Flags = MeshUpdateFlags.DontRecalculateBounds | MeshUpdateFlags.DontValidateIndices | MeshUpdateFlags.DontResetBoneBounds;
     const int RunGap = 256;
 
     internal readonly UnityEngine.Mesh Mesh;

@@ -33,8 +33,7 @@ namespace Sunder.Unity
         if (current == null)
         {
           GameObject made = new GameObject("Sunder");
-          made.hideFlags = HideFlags.HideAndDontSave;
-          if (Application.isPlaying) Object.DontDestroyOnLoad(made);
+          Object.DontDestroyOnLoad(made);
           current = made.AddComponent<TearScene>();
         }
         return current;

@@ -157,7 +157,8 @@ namespace Sunder.Unity
     void MakeRenderer()
     {
       drawnObject = new GameObject(name + " (torn)");
-      drawnObject.hideFlags = HideFlags.DontSave;
+      // Where it stays when another scene is loaded: the character may stay too.
+      drawnObject.transform.SetParent(scene.transform, false);
       drawnObject.layer = gameObject.layer;
       drawnObject.AddComponent<MeshFilter>().sharedMesh = drawn.Mesh;
       drawnRenderer = drawnObject.AddComponent<MeshRenderer>();
