@@ -9,6 +9,7 @@ under IL2CPP. Those that a program fills in or reads are in the namespace Sunder
 library, which the layer wraps, are in Sunder.Native.
 """
 import json
+import os
 import pathlib
 import re
 import sys
@@ -22,7 +23,7 @@ VECTORS = {('float', 3): 'Vector3f', ('float', 4): 'Vector4f', ('double', 2): 'V
 RENAMED = {'sunder_transform': 'BoneTransform', 'sunder_material': 'TissueMaterial', 'sunder_collider': 'TissueCollider',
            'sunder_blade': 'BladePosition', 'sunder_range': 'VertexRange', 'sunder_cut': 'PlaneCut', 'sunder_detach': 'Detachment',
            'sunder_contact': 'SurfaceContact'}
-# Enums have no names in C: the name here, by the first constant, and what the constants begin with.
+# Enums have no names in C. The name here, by the first constant, and what the constants begin with; for others see named_by_prefix().
 ENUMS = {'SUNDER_OK': ('Status', 'SUNDER_'), 'SUNDER_FEATURE_THREADS': ('Features', 'SUNDER_FEATURE_'),
          'SUNDER_TARGET_TRANSLATION': ('ChannelTarget', 'SUNDER_TARGET_'), 'SUNDER_INTERPOLATE_LINEAR': ('Interpolation', 'SUNDER_INTERPOLATE_'),
          'SUNDER_NOTE_INFORMATION': ('NoteKind', 'SUNDER_NOTE_'), 'SUNDER_SKIN_LINEAR': ('Skinning', 'SUNDER_SKIN_'),
@@ -73,11 +74,19 @@ class Binding:
         self.enums = {}
         for one in api['enums']:
             first = one['constants'][0]['name']
-            if first not in ENUMS:
-                fail(f'the enum that begins with {first} has no name in C#: add it to ENUMS')
-            self.enums[first] = ENUMS[first]
+            self.enums[first] = ENUMS.get(first) or self.named_by_prefix([constant['name'] for constant in one['constants']])
 
     # ---- names ----
+
+    @staticmethod
+    def named_by_prefix(constants):
+        """SUNDER_EASE_LINEAR, SUNDER_EASE_IN: Ease."""
+        prefix = os.path.commonprefix(constants)
+        prefix = prefix[:prefix.rindex('_') + 1]
+        name = pascal(prefix[len('SUNDER_'):].strip('_').lower())
+        if not name or name in (one for one, _ in ENUMS.values()):
+            fail(f'the enum that begins with {constants[0]} has no name in C#: add it to ENUMS')
+        return name, prefix
 
     def is_native(self, name):
         """Whether a struct has pointers, and is no set of options that a program fills in."""

@@ -132,18 +132,23 @@ namespace Sunder.Unity
     /// <summary>A range of vertices into stream 0; the bounds grow by them.</summary>
     void CopyRows(float* place, float* normal, float* tangent, int first, int count)
     {
-      Vector3 least = low, most = high;
+      float lowX = low.x, lowY = low.y, lowZ = low.z, highX = high.x, highY = high.y, highZ = high.z;
+      int width = posedWidth;
       fixed (float* rowsOfPosed = posed)
       {
-        for (int v = first; v < first + count; ++v)
+        float* to = rowsOfPosed + width * first;
+        for (int v = first; v < first + count; ++v, to += width)
         {
-          float* to = rowsOfPosed + posedWidth * v;
           float x = -place[3 * v], y = place[3 * v + 1], z = place[3 * v + 2];
           to[0] = x;
           to[1] = y;
           to[2] = z;
-          least = new Vector3(x < least.x ? x : least.x, y < least.y ? y : least.y, z < least.z ? z : least.z);
-          most = new Vector3(x > most.x ? x : most.x, y > most.y ? y : most.y, z > most.z ? z : most.z);
+          if (x < lowX) lowX = x;
+          if (x > highX) highX = x;
+          if (y < lowY) lowY = y;
+          if (y > highY) highY = y;
+          if (z < lowZ) lowZ = z;
+          if (z > highZ) highZ = z;
           if (normal == null) continue;
           to[3] = -normal[3 * v];
           to[4] = normal[3 * v + 1];
@@ -155,8 +160,8 @@ namespace Sunder.Unity
           to[9] = -tangent[4 * v + 3];
         }
       }
-      low = least;
-      high = most;
+      low = new Vector3(lowX, lowY, lowZ);
+      high = new Vector3(highX, highY, highZ);
     }
 
     void RepeatFirst(float[] array, int width)
