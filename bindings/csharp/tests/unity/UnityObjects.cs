@@ -16,7 +16,14 @@ namespace UnityEngine
   [AttributeUsage(AttributeTargets.Class)] public sealed class DisallowMultipleComponent : Attribute { }
 
   public static class Time { public static float deltaTime = 1f / 60; }
-  public static class Debug { public static void Log(object message) { Console.WriteLine(message); } }
+  public static class Debug
+  {
+    public static string Logged = "";
+    public static void Log(object message) { Logged += message + "\n"; }
+    public static void LogException(Exception exception, Object context) { Logged += context.GetType().Name + ": " + exception.Message + "\n"; }
+  }
+
+  public sealed class MissingReferenceException : Exception { public MissingReferenceException(string text) : base(text) { } }
 
   public class Object
   {
@@ -48,7 +55,14 @@ namespace UnityEngine
   public class Component : Object
   {
     public GameObject gameObject { get; internal set; }
-    public Transform transform { get { return gameObject.transform; } }
+    public Transform transform
+    {
+      get
+      {
+        if (this == null) throw new MissingReferenceException("an object that was destroyed is used");
+        return gameObject.transform;
+      }
+    }
     public new string name { get { return gameObject.name; } }
     public T GetComponent<T>() where T : Component { return gameObject.GetComponent<T>(); }
     public T GetComponentInParent<T>() where T : Component
@@ -194,6 +208,7 @@ namespace UnityEngine
     {
       get
       {
+        if (this == null) throw new MissingReferenceException("a transform that was destroyed is used");
         Matrix4x4 local = Matrix4x4.TRS(localPosition, localRotation, localScale);
         return parent == null ? local : parent.localToWorldMatrix * local;
       }

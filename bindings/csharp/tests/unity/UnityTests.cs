@@ -386,6 +386,79 @@ namespace Sunder.Tests
       UnityEngine.Object.Destroy(soft.Object);
     }
 
+    internal static void OneBladePerCharacter()
+    {
+      Rig one = new Rig(CharacterSkinning.BySunder, false), other = new Rig(CharacterSkinning.BySunder, false, one.Mesh);
+      int torn = 0;
+      foreach (Rig rig in new[] { one, other })
+      {
+        rig.Character.Torn.AddListener((who, info) => { ++torn; });
+        rig.Character.Failed.AddListener((who, text) => { throw new TestFailure(text); });
+      }
+      Host.Frame();
+      Blade first = new GameObject("first").AddComponent<Blade>(), second = new GameObject("second").AddComponent<Blade>();
+      for (int i = 0; i <= 30; ++i)
+      {
+        foreach (Blade blade in new[] { first, second })
+        {
+          blade.EdgeTip = new Vector3(0, 0, 0.55f);
+          blade.transform.localRotation = one.Object.transform.rotation;
+          blade.transform.localPosition = one.Object.transform.TransformPoint(new Vector3(-0.4f + 0.025f * i, blade == first ? 0.4f : 0.6f, -0.3f));
+        }
+        Host.Frame();
+        if (i == 15) Expect.That(first.MetCount == 2 && second.MetCount == 0, "the first blade tears both characters, which stand in one place");
+        if (i == 20) first.enabled = false;  // ends its strokes; the second one begins
+      }
+      Expect.That(first.MetCount == 0 && second.MetCount == 2, "the second blade goes on");
+      other.Character.enabled = false;
+      Expect.Equal(second.MetCount, 1, "characters that it tears");
+      Host.Frame();
+      Expect.That(torn >= 4, "tears: " + torn);
+      int undo, redo;
+      one.Character.Instance.GetUndoCounts(out undo, out redo);
+      Expect.That(undo >= 1, "strokes");
+      ExpectBuffers(one);
+      foreach (UnityEngine.Object made in new UnityEngine.Object[] { first.gameObject, second.gameObject, one.Object, other.Object }) UnityEngine.Object.Destroy(made);
+    }
+
+    internal static void SnapshotsComeBack()
+    {
+      foreach (CharacterSkinning skinning in new[] { CharacterSkinning.BySunder, CharacterSkinning.ByUnity })
+      {
+        Rig rig = new Rig(skinning, false);
+        Host.Frame();
+        Scene scene = TearScene.Current.Scene;
+        CharacterAsset[] assets = { rig.Character.Instance.Asset };
+        byte[] whole = scene.Save();
+        rig.Character.Cut(rig.Object.transform.TransformPoint(new Vector3(0, 0.4f, 0)), rig.Object.transform.rotation * new Vector3(0, 1, 0));
+        Pose(rig, 10);
+        ulong digest = rig.Character.Instance.Digest;
+        byte[] torn = scene.Save();
+        scene.Restore(whole, assets);
+        Pose(rig, 20);
+        ExpectBuffers(rig);
+        Expect.That(rig.Character.Instance.Digest != digest, "it is whole");
+        scene.Restore(torn, assets);
+        Pose(rig, 30);
+        ExpectBuffers(rig);
+        Expect.Equal(rig.Character.Instance.Digest, digest, "it is torn again");
+        UnityEngine.Object.Destroy(rig.Object);
+      }
+    }
+
+    internal static void AMissingBoneStopsOneCharacter()
+    {
+      Rig one = new Rig(CharacterSkinning.BySunder, false), other = new Rig(CharacterSkinning.BySunder, false, one.Mesh);
+      Host.Frame();
+      Debug.Logged = "";
+      UnityEngine.Object.Destroy(one.Bones[2].gameObject);
+      Pose(other, 10);
+      ExpectBuffers(other);
+      Expect.That(!one.Character.enabled && other.Character.enabled && Debug.Logged.Contains("destroyed"), "one is disabled: " + Debug.Logged);
+      UnityEngine.Object.Destroy(one.Object);
+      UnityEngine.Object.Destroy(other.Object);
+    }
+
     /// <summary>The scripts of the package's sample: a drag tears, a severed limb falls.</summary>
     internal static void SampleWorks()
     {
@@ -463,7 +536,7 @@ namespace Sunder.Tests
     {
       int failed = 0;
       foreach (Action test in new Action[] { PosedPositionsAgree, BladeTears, OneSidedTear, UnitySkinsAsTheLibrary, ManyTearsGrowTheBuffers, PiecesFall,
-        CharactersShareAssets, FaultsHaveTexts, SampleWorks, FramesMakeNoGarbage })
+        CharactersShareAssets, FaultsHaveTexts, OneBladePerCharacter, SnapshotsComeBack, AMissingBoneStopsOneCharacter, SampleWorks, FramesMakeNoGarbage })
       {
         try
         {

@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 using UnityEngine;
 
@@ -33,7 +34,7 @@ namespace Sunder.Unity
         if (current == null)
         {
           GameObject made = new GameObject("Sunder");
-          Object.DontDestroyOnLoad(made);
+          DontDestroyOnLoad(made);
           current = made.AddComponent<TearScene>();
         }
         return current;
@@ -105,7 +106,7 @@ namespace Sunder.Unity
     public void Step(float seconds)
     {
       if (characters.Count == 0) return;
-      for (int i = 0; i < characters.Count; ++i) characters[i].SendPose();
+      SendPoses();
       Scene.Update(seconds);
       for (int i = 0; i < characters.Count; ++i) characters[i].Draw();
       // Whoever listens may destroy characters and submit operations, but results stay until the next update.
@@ -115,6 +116,24 @@ namespace Sunder.Unity
         TearableCharacter character;
         if (byInstance.TryGetValue(result.InstanceId, out character)) character.Report(result);
         else if (result.HasPiece) result.TakePiece().Dispose();
+      }
+    }
+
+    /// <summary>A character whose pose cannot be read, as when a bone was destroyed, is disabled; the others go on.</summary>
+    void SendPoses()
+    {
+      for (int i = characters.Count - 1; i >= 0; --i)
+      {
+        TearableCharacter one = characters[i];
+        try
+        {
+          one.SendPose();
+        }
+        catch (Exception exception)
+        {
+          Debug.LogException(exception, one);
+          one.enabled = false;
+        }
       }
     }
 
