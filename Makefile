@@ -1,6 +1,6 @@
 # Shortcuts: each target installs missing packages, configures, builds and runs, using the CMake presets.
 .DEFAULT_GOAL := help
-.PHONY: help demo pictures unit test coverage same-bits bench stress fuzz format
+.PHONY: help demo pictures unit test check coverage same-bits bench stress fuzz format
 jobs := $(shell nproc)
 
 help:
@@ -8,6 +8,7 @@ help:
 	@echo 'make pictures draws all pictures of docs/ anew; before and after side by side in build/pictures/'
 	@echo 'make unit     builds everything and runs the unit tests, which take some minutes'
 	@echo 'make test     builds everything and runs all tests'
+	@echo 'make check    format, clang, clang-tidy on what changed, and tests under the sanitizers'
 	@echo 'make coverage lines and branches of core, tear and weights that their tests run; fails below 95 and 85 %'
 	@echo 'make same-bits tries the same cases with gcc, optimised and not, and with clang: the results must have the same bits'
 	@echo 'make bench    runs the benchmarks'
@@ -40,6 +41,10 @@ test:
 	cmake --preset release
 	cmake --build --preset release
 	ctest --preset release -j $(jobs)
+
+check:
+	scripts/setup check
+	scripts/check
 
 coverage_tests := tear_test refit_test weights_test contact_test detach_test core_test memory_operators_test
 coverage:

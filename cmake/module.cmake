@@ -69,9 +69,11 @@ function(sunder_compile_options target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -ffp-contract=off
     -fno-math-errno)
   get_target_property(is_unity ${target} UNITY_BUILD)
+  # These warnings take the sources that are compiled together for headers.
   if(is_unity AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    # Both warnings take the sources that are compiled together for headers.
     target_compile_options(${target} PRIVATE -Wno-subobject-linkage -Wno-shadow -Wshadow=local)
+  elseif(is_unity AND CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+    target_compile_options(${target} PRIVATE -Wno-shadow)
   endif()
   if(SUNDER_WARNINGS_AS_ERRORS)
     target_compile_options(${target} PRIVATE -Werror)
