@@ -13,7 +13,7 @@ namespace Sunder
     internal LibraryHandle(string kind, uint number) : base(IntPtr.Zero, true)
     {
       Kind = kind;
-      SetHandle(new IntPtr((long)number));
+      SetHandle(new IntPtr(unchecked((int)number)));  // a pointer may have 32 bits, as on WebGL
     }
 
     public override bool IsInvalid { get { return handle == IntPtr.Zero; } }
@@ -28,7 +28,7 @@ namespace Sunder
       }
     }
 
-    internal uint Raw { get { return (uint)handle.ToInt64(); } }
+    internal uint Raw { get { return unchecked((uint)handle.ToInt64()); } }
   }
 
   sealed class CharacterHandle : LibraryHandle
