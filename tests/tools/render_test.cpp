@@ -406,6 +406,37 @@ TEST(Trace, textures_finer_than_pixels_are_averaged) {
   EXPECT_EQ(pure, 0);
 }
 
+/// A strip half as wide as a pixel, slanted so that it crosses columns: no row misses it.
+TEST(Trace, surfaces_thinner_than_a_pixel_are_not_broken) {
+  RenderScene scene;
+  scene.materials.resize(1);
+  scene.materials[0].factor = Vec4f(0, 0, 0, 1);
+  scene.materials[0].is_unlit = true;
+  scene.backdrop_rise = 0;
+  const Camera camera{{0, 0, 1}, {0, 0, 0}, {0, 1, 0}, 90};
+  const PictureSize size{80, 80};
+  const float pixel = 2.0f / 80;  // The picture is two metres wide.
+  RenderTriangle half;
+  for (auto& normal : half.normals) normal = Vec3f::UnitZ();
+  for (auto& tint : half.tints) tint.setOnes();
+  const Vec3f low(-3 * pixel, -1.2f, 0), high(3 * pixel, 1.2f, 0), across(pixel / 2, 0, 0);
+  half.corners = {low, low + across, high};
+  scene.triangles.push_back(half);
+  half.corners = {low + across, high + across, high};
+  scene.triangles.push_back(half);
+  const Picture picture = trace(scene, camera, size);
+  const auto light = [](const Picture::Color& color) {
+    return std::pow(static_cast<double>(color[1]) / 255, 2.2);
+  };
+  const double bright = light(picture.colors[0]);
+  for (std::size_t y = 0; y < 80; ++y) {
+    double ink = 0;
+    for (std::size_t x = 0; x < 80; ++x) ink += 1 - light(picture.colors[80 * y + x]) / bright;
+    EXPECT_GT(ink, 0.2) << y;
+    EXPECT_LT(ink, 0.8) << y;
+  }
+}
+
 /// Cut into small pieces, a lip reddens the same places.
 TEST(Redness, long_lips_redden_what_their_pieces_redden) {
   test::Random random(7);

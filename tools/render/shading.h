@@ -63,7 +63,7 @@ class Shading {
     Vec2f uv = Vec2f::Zero();
     bool stands_alone = false;  ///< Flesh, or what shows through: like no other place.
   };
-  using Glances = std::array<const Glance*, 4>;
+  using Glances = std::array<const Glance*, 5>;
   [[nodiscard]] Glance glance(const TriangleTree::Hit& hit, const Vec3f& from,
                               const Vec3f& along) const;
   /// Whether one of four neighbours stands for all: they are opaque, of one material and smooth,

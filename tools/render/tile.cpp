@@ -54,28 +54,30 @@ const Tile::Pixel& Tile::pixel_at(int x, int y) const {
   return pixels_[static_cast<std::size_t>((y - top_) * (right_ - left_) + x - left_)];
 }
 
-void Tile::find_corners() {
-  corners_.clear();
-  constexpr int kBundle = TriangleTree::kBundle;
-  for (int y = top_; y <= bottom_; ++y)
-    for (int x = left_; x <= right_; x += kBundle) {
-      std::array<Vec3f, kBundle> along;
-      std::array<TriangleTree::Hit, kBundle> hits;
-      const int count = std::min(kBundle, right_ + 1 - x);
+void Tile::look_through(double offset, int right, int bottom,
+                        std::vector<Shading::Glance>& glances) const {
+  glances.clear();
+  constexpr auto kBundle = static_cast<int>(TriangleTree::kBundle);
+  for (int y = top_; y < bottom; ++y)
+    for (int x = left_; x < right; x += kBundle) {
+      std::array<Vec3f, TriangleTree::kBundle> along;
+      std::array<TriangleTree::Hit, TriangleTree::kBundle> hits;
+      const int count = std::min(kBundle, right - x);
       bool may_show = false;
-      for (int i = 0; i < count; ++i) {
-        along[static_cast<std::size_t>(i)] = view_.along(x + i, y);
-        may_show = may_show || drawn_.coverage.may_show(x + i, y);
+      for (int i = 0; i < kBundle; ++i) {
+        const int column = x + std::min(i, count - 1);
+        along[static_cast<std::size_t>(i)] = view_.along(column + offset, y + offset);
+        may_show = may_show || drawn_.coverage.may_show(column, y);
       }
-      for (int i = count; i < kBundle; ++i) along[static_cast<std::size_t>(i)] = along[0];
       if (may_show) hits = shading_.find(view_.eye, along);
       for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
-        corners_.push_back(shading_.glance(hits[i], view_.eye, along[i]));
+        glances.push_back(shading_.glance(hits[i], view_.eye, along[i]));
     }
 }
 
 void Tile::find_surfaces() {
-  find_corners();
+  look_through(0, right_ + 1, bottom_ + 1, corners_);
+  look_through(0.5, right_, bottom_, middles_);
   pixels_.clear();
   layers_.clear();
   probes_.clear();
@@ -89,22 +91,28 @@ void Tile::find_surfaces() {
 }
 
 void Tile::see(Pixel& pixel, int x, int y) {
-  const auto width = static_cast<std::size_t>(right_ - left_ + 1);
-  const Shading::Glance* const corner = corners_.data() +
-                                        static_cast<std::size_t>(y - top_) * width +
-                                        static_cast<std::size_t>(x - left_);
-  const Shading::Glances corners = {corner, corner + 1, corner + width, corner + width + 1};
+  const auto width = static_cast<std::size_t>(right_ - left_),
+             row = static_cast<std::size_t>(y - top_), column = static_cast<std::size_t>(x - left_);
+  const Shading::Glance& middle = middles_[row * width + column];
+  const Shading::Glance* const corner = &corners_[row * (width + 1) + column];
+  const Shading::Glances glances = {&middle, corner, corner + 1, corner + width + 1,
+                                    corner + width + 2};
+  const Vec3f along = view_.along(x + 0.5, y + 0.5);
   pixel.layers.fill(static_cast<std::uint32_t>(layers_.size()));
-  if (shading_.look_alike(corners, kSamePlane * pixel_size() * corner->hit.distance)) {
+  if (shading_.look_alike(glances, kSamePlane * pixel_size() * middle.hit.distance)) {
     pixel.kind = Kind::even;
-    see_even(pixel, x, y, corners);
+    add_layer(pixel, x, y, shading_.surface_at(middle.hit, view_.eye, along), middle.hit.distance);
     return;
   }
-  if (std::ranges::all_of(corners, [](const auto* of) { return of->hit.triangle == kNone; })) {
+  if (std::ranges::all_of(glances, [](const auto* of) { return of->hit.triangle == kNone; })) {
     pixel.kind = Kind::empty;
-    see_floor(pixel, x, y, view_.along(x + 0.5, y + 0.5), 0);
+    see_floor(pixel, x, y, along, 0);
     return;
   }
+  see_samples(pixel, x, y);
+}
+
+void Tile::see_samples(Pixel& pixel, int x, int y) {
   std::array<Vec3f, kSamples> along;
   for (std::size_t sample = 0; sample < kSamples; ++sample)
     along[sample] = view_.along(x + kPlaces[sample].x(), y + kPlaces[sample].y());
@@ -113,23 +121,6 @@ void Tile::see(Pixel& pixel, int x, int y) {
     pixel.layers[sample] = static_cast<std::uint32_t>(layers_.size());
     see_sample(pixel, x, y, along[sample], sample, first[sample]);
   }
-}
-
-void Tile::see_even(Pixel& pixel, int x, int y, const Shading::Glances& corners) {
-  const Shading::Glance& first = *corners[0];
-  const Vec3f along = view_.along(x + 0.5, y + 0.5);
-  // The middle lies in the plane of the first corner, but not nearer or farther than all corners.
-  const auto [nearest, farthest] =
-      std::ranges::minmax(corners, {}, [](const auto* of) { return of->hit.distance; });
-  const float facing = first.normal.dot(along);
-  const float distance = facing < 0 || facing > 0
-                             ? std::clamp(first.normal.dot(first.place - view_.eye) / facing,
-                                          nearest->hit.distance, farthest->hit.distance)
-                             : first.hit.distance;
-  Shading::Surface surface = shading_.surface_at({first.hit.triangle, distance}, view_.eye, along);
-  // Rays begin where the surface was met, never below it.
-  surface.start += first.place - surface.place;
-  add_layer(pixel, x, y, surface, distance);
 }
 
 void Tile::add_layer(Pixel& pixel, int x, int y, const Shading::Surface& surface, float distance) {

@@ -22,11 +22,11 @@ struct TiledScene {
   Vec3f middle;  ///< Of the scene; the floor is around it.
 };
 
-/// Draws parts of a picture. Rays from the eye go through the corners of the pixels; where the four
-/// of a pixel meet one even surface, it is shaded once, and where they meet nothing, the backdrop
-/// is; elsewhere four more rays find surfaces within the pixel. Shadows are looked for once per
-/// pixel and surface, and averaged over the neighbouring pixels of the same surface. For one
-/// thread; the parts do not depend on each other.
+/// Draws parts of a picture. Rays from the eye go through the corners and the middles of pixels;
+/// where the five of a pixel meet one even surface, it is shaded once, and where they meet nothing,
+/// the backdrop is; elsewhere four more rays find surfaces within the pixel. Shadows are looked for
+/// once per pixel and surface, and averaged over the neighbouring pixels of the same surface. For
+/// one thread; the parts do not depend on each other.
 class Tile {
  public:
   static constexpr int kSide = 80;                                ///< Pixels.
@@ -68,11 +68,13 @@ class Tile {
     std::uint32_t floor_probe = 0;           ///< Where there are some.
     Kind kind = Kind::mixed;
   };
-  /// Looks through the corners of all pixels.
-  void find_corners();
+  /// Looks through one place of each pixel from (left_, top_) to (right, bottom).
+  /// @param offset  of the place from the pixel's upper left corner, in pixels, both ways.
+  void look_through(double offset, int right, int bottom,
+                    std::vector<Shading::Glance>& glances) const;
   void find_surfaces();
   void see(Pixel& pixel, int x, int y);
-  void see_even(Pixel& pixel, int x, int y, const Shading::Glances& corners);
+  void see_samples(Pixel& pixel, int x, int y);
   void see_sample(Pixel& pixel, int x, int y, const Vec3f& along, std::size_t sample,
                   TriangleTree::Hit hit);
   /// Adds the layer of a surface.
@@ -97,6 +99,7 @@ class Tile {
   const TiledScene& drawn_;
   int left_ = 0, top_ = 0, right_ = 0, bottom_ = 0;  ///< With a border, for the averages.
   std::vector<Shading::Glance> corners_;  ///< One more per row than pixels, and one more row.
+  std::vector<Shading::Glance> middles_;  ///< One per pixel.
   std::vector<Pixel> pixels_;
   std::vector<Layer> layers_;
   std::vector<Probe> probes_;
