@@ -251,9 +251,11 @@ Result<HoldId> SoftBody::hold(std::uint32_t particle, const Vec3d& target,
   if (Status status = follow(*state_); !status) return status;
   if (Status status = check_particle(*state_, particle); !status) return status;
   if (Status status = check_hold(target, options); !status) return status;
-  state_->outer.is_disturbed = true;
   try {
-    return state_->holds.add_particle(*state_->set, particle, target, options.stiffness);
+    const HoldId hold =
+        state_->holds.add_particle(*state_->set, particle, target, options.stiffness);
+    state_->outer.is_disturbed = true;
+    return hold;
   } catch (const std::bad_alloc&) {
     return out_of_memory();
   }
@@ -264,9 +266,10 @@ Result<HoldId> SoftBody::hold_point(std::uint32_t point, const Vec3d& target,
   if (Status status = follow(*state_); !status) return status;
   if (Status status = check_point(*state_, point); !status) return status;
   if (Status status = check_hold(target, options); !status) return status;
-  state_->outer.is_disturbed = true;
   try {
-    return state_->holds.add_point(*state_->set, point, target, options.stiffness);
+    const HoldId hold = state_->holds.add_point(*state_->set, point, target, options.stiffness);
+    state_->outer.is_disturbed = true;
+    return hold;
   } catch (const std::bad_alloc&) {
     return out_of_memory();
   }

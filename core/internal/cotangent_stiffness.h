@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include <Eigen/SparseCore>
@@ -23,7 +24,7 @@ struct HalfCotangent {
 /// @param matrix  points x points.
 /// @return the number of edges, and of those whose sum was clamped.
 template <class Matrix>
-std::pair<Index, Index> add_edges(std::vector<HalfCotangent>& halves, double least, double most,
+std::pair<Index, Index> add_cotangent_edges(std::vector<HalfCotangent>& halves, double least, double most,
                                   Matrix& matrix) {
   std::ranges::sort(halves, [](const HalfCotangent& a, const HalfCotangent& b) {
     return std::tie(a.first, a.second, a.value) < std::tie(b.first, b.second, b.value);

@@ -38,7 +38,7 @@ Stiffness make_stiffness(const WeldedSurface& surface) {
   for (Index face = 0; face < surface.triangles.size(); ++face)
     add_face(surface, face, halves, stiffness.mass);
   std::tie(stiffness.edges, stiffness.clamped_edges) =
-      add_edges(halves, kSmallestWeight, kLargestWeight, stiffness.matrix);
+      add_cotangent_edges(halves, kSmallestWeight, kLargestWeight, stiffness.matrix);
   double total = 0;
   for (const double mass : stiffness.mass) total += mass;
   const double mean = size == 0 ? 0 : total / static_cast<double>(size);

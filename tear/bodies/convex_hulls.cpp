@@ -114,7 +114,22 @@ Result<std::vector<ConvexHull>> convex_hulls(const Character& character, const M
 }
 
 std::uint32_t main_bone(const Triangle& triangle, const SkinWeights& weights, const Skin& skin) {
-  return bodies::MainBones(skin.bones.size()).of(triangle, weights, skin);
+  // As MainBones does for many triangles, but without memory.
+  const auto sum_of = [&](std::uint32_t slot) {
+    float sum = 0;
+    for (const std::uint32_t vertex : triangle)
+      for (const Influence& of : weights.of(vertex))
+        if (of.slot == slot) sum += of.weight;
+    return sum;
+  };
+  Influence most{kNone, 0.0f};
+  for (const std::uint32_t vertex : triangle)
+    for (const Influence& influence : weights.of(vertex)) {
+      const float sum = sum_of(influence.slot);
+      if (sum > most.weight || (sum == most.weight && influence.slot < most.slot))
+        most = {influence.slot, sum};
+    }
+  return skin.bones[most.slot];
 }
 
 }  // namespace sunder

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "core/internal/sort_by_index.h"
 #include "tear/surface/scratch_memory.h"
 

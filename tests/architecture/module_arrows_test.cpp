@@ -198,6 +198,19 @@ TEST(Architecture, our_tree_follows_the_arrows) {
   EXPECT_THAT(include_faults(SUNDER_SOURCE_DIR), IsEmpty());
 }
 
+TEST(Architecture, every_source_of_a_folder_with_modules_is_of_a_module) {
+  const fs::path root = SUNDER_SOURCE_DIR;
+  std::set<std::string> folders;
+  for (const auto& [module, unused] : kMayUse) {
+    const std::string path = folder_of(module);
+    EXPECT_FALSE(source_files(root / path).empty()) << path;
+    folders.insert(path.substr(0, path.find('/')));
+  }
+  for (const std::string& folder : folders)
+    for (const fs::path& file : source_files(root / folder))
+      EXPECT_TRUE(kMayUse.contains(module_of(name_below(root, file)))) << file;
+}
+
 TEST(Architecture, an_upward_arrow_is_found) {
   EXPECT_THAT(faults_of("weights/a.cpp", "#include <sunder/tear/topology.h>"),
               ElementsAre(HasSubstr("from weights to tear")));

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "support/machine/random.h"
+#include "tear/bodies/internal/main_bones.h"
 
 namespace sunder {
 namespace {
@@ -14,6 +15,7 @@ TEST(MainBone, has_the_largest_sum_of_weights_and_of_several_the_first_slot) {
   constexpr std::uint32_t kSlots = 40;
   Skin skin;
   for (std::uint32_t slot = 0; slot < kSlots; ++slot) skin.bones.push_back(100 + slot);
+  bodies::MainBones main_bones(kSlots);
   for (int i = 0; i < 2000; ++i) {
     SkinWeights weights;
     std::map<std::uint32_t, float> sums;
@@ -32,6 +34,7 @@ TEST(MainBone, has_the_largest_sum_of_weights_and_of_several_the_first_slot) {
     for (auto sum = sums.begin(); sum != sums.end(); ++sum)
       if (sum->second > most->second) most = sum;
     ASSERT_EQ(main_bone({0, 1, 2}, weights, skin), 100 + most->first) << i;
+    ASSERT_EQ(main_bones.of({0, 1, 2}, weights, skin), 100 + most->first) << i;
   }
 }
 

@@ -66,7 +66,7 @@ Laplacian make_laplacian(std::span<const Vec3d> positions, std::span<const Trian
   const auto size = static_cast<Eigen::Index>(positions.size());
   laplacian.stiffness.resize(size, size);
   std::tie(laplacian.edges, laplacian.clamped_edges) =
-      add_edges(halves, kSmallestWeight, kLargestWeight, laplacian.stiffness);
+      add_cotangent_edges(halves, kSmallestWeight, kLargestWeight, laplacian.stiffness);
   double total = 0;
   for (const double mass : laplacian.mass) total += mass;
   const double least =

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <sunder/core/api.h>
 #include <sunder/core/mesh.h>
 #include <sunder/core/skin.h>
 
@@ -13,7 +14,7 @@ class MainBones {
   /// @throws std::bad_alloc
   explicit MainBones(std::size_t slots) : sums_(slots, kNoSum), touched_(slots) {}
 
-  /// @param skin  has the slots that the constructor was told.
+  /// @param weights  >= 0, of slots below the number that the constructor was told.
   [[nodiscard]] std::uint32_t of(const Triangle& triangle, const SkinWeights& weights,
                                  const Skin& skin) {
     float* const sums = sums_.data();
@@ -21,6 +22,7 @@ class MainBones {
     std::size_t count = 0;
     for (const std::uint32_t vertex : triangle)
       for (const Influence& influence : weights.of(vertex)) {
+        SUNDER_ASSERT(influence.slot < sums_.size() && influence.weight >= 0);
         const float sum = sums[influence.slot];
         const bool is_first = sum == kNoSum;
         sums[influence.slot] = is_first ? influence.weight : sum + influence.weight;
