@@ -155,8 +155,9 @@ class Binding:
             out.append(summary(doc, '    '))
             out.append(f'    public {self.field_type(field)} {pascal(field["name"])};\n')
         if one['name'] in self.makers:
-            out.append(f'\n    /// <summary>Made by the library.</summary>\n    public static {name} Default {{ get {{ return '
-                       f'Native.NativeCalls.{self.makers[one["name"]]}(); }} }}\n')
+            # A library of another version may return another size: it is refused before.
+            out.append(f'\n    /// <summary>Made by the library.</summary>\n    public static {name} Default\n    {{\n      get\n      {{\n'
+                       f'        Library.Require();\n        return Native.NativeCalls.{self.makers[one["name"]]}();\n      }}\n    }}\n')
         elif one['fields'][0]['name'] == 'struct_size':
             out.append('\n    /// <summary>One that a call writes.</summary>\n'
                        f'    public static {name} Sized {{ get {{ {name} sized = new {name}(); sized.StructSize = (uint)sizeof({name}); return sized; }} }}\n')
@@ -244,11 +245,14 @@ VIEW = '''  /// <summary>An array of the library, read-only and without a copy. 
       {
         Check();
         if ((uint)index >= (uint)count) throw Epoch.OutOfRange(index, count);
-        return first[index];
+        ELEMENT element = first[index];
+        moment.KeepAlive();
+        return element;
       }
     }
 
-    /// <summary>The address of the first element, for loops that check once and then read many; null: the array is not there.</summary>
+    /// <summary>The address of the first element, for loops that check once and then read many; null: the array is not there. Who reads
+    /// there keeps the view's owner, a scene or a character, alive meanwhile: a field, a using or GC.KeepAlive() does.</summary>
     public ELEMENT* Pointer { get { Check(); return first; } }
 
     public void CopyTo(ELEMENT[] array, int at = 0)
@@ -257,6 +261,7 @@ VIEW = '''  /// <summary>An array of the library, read-only and without a copy. 
       if (array == null) throw new ArgumentNullException("array");
       if (at < 0 || array.Length - at < count) throw new ArgumentException(Epoch.NoRoom(array.Length, at, count), "array");
       for (int i = 0; i < count; ++i) array[at + i] = first[i];
+      moment.KeepAlive();
     }
 
     public ELEMENT[] ToArray()
@@ -267,7 +272,8 @@ VIEW = '''  /// <summary>An array of the library, read-only and without a copy. 
     }
 
 #if UNITY_2021_2_OR_NEWER || NETSTANDARD2_1_OR_GREATER || NETCOREAPP2_1_OR_GREATER || SUNDER_SPAN
-    /// <summary>Checked now, and not again: use it up before the next call that changes what it shows.</summary>
+    /// <summary>Checked now, and not again: use it up before the next call that changes what it shows, and keep the view's owner alive
+    /// until then, as for Pointer.</summary>
     public ReadOnlySpan<ELEMENT> Span { get { Check(); return new ReadOnlySpan<ELEMENT>(first, count); } }
 #endif
 

@@ -68,7 +68,7 @@ namespace Sunder
 
     internal uint Number { get { return handle.Number; } }
 
-    public string Name { get { Check(); return Utf8.Read(data.Name); } }
+    public string Name { get { Check(); return Text(data.Name); } }
     public int BoneCount { get { return (int)data.BoneCount; } }
     public int MeshCount { get { return (int)data.MeshCount; } }
     public int SkinCount { get { return (int)data.SkinCount; } }
@@ -83,32 +83,45 @@ namespace Sunder
       bone.Name = Utf8.Read(data.Bones[index].Name);
       bone.Parent = data.Bones[index].Parent == Constants.None ? -1 : (int)data.Bones[index].Parent;
       bone.Rest = data.Bones[index].Rest;
+      GC.KeepAlive(this);
       return bone;
     }
 
     public MeshView GetMesh(int index)
     {
       Check(index, data.MeshCount);
-      return new MeshView(data.Meshes[index], epoch, epoch);
+      MeshView mesh = new MeshView(data.Meshes[index], epoch, epoch);
+      GC.KeepAlive(this);
+      return mesh;
     }
 
     /// <summary>Per slot: a bone.</summary>
     public UIntView GetSkinBones(int skin)
     {
       Check(skin, data.SkinCount);
-      return new UIntView(data.Skins[skin].Bones, data.Skins[skin].SlotCount, epoch.Now);
+      UIntView bones = new UIntView(data.Skins[skin].Bones, data.Skins[skin].SlotCount, epoch.Now);
+      GC.KeepAlive(this);
+      return bones;
     }
 
     /// <summary>Per slot: 12 numbers, column after column, the inverse of the bone's bind transform.</summary>
     public FloatView GetBoneFromBind(int skin)
     {
       Check(skin, data.SkinCount);
-      return new FloatView(data.Skins[skin].BoneFromBind, 12ul * data.Skins[skin].SlotCount, epoch.Now);
+      FloatView matrices = new FloatView(data.Skins[skin].BoneFromBind, 12ul * data.Skins[skin].SlotCount, epoch.Now);
+      GC.KeepAlive(this);
+      return matrices;
     }
 
-    public string GetClipName(int clip) { Check(clip, data.ClipCount); return Utf8.Read(data.Clips[clip].Name); }
+    public string GetClipName(int clip) { Check(clip, data.ClipCount); return Text(data.Clips[clip].Name); }
     /// <summary>Seconds.</summary>
-    public float GetClipDuration(int clip) { Check(clip, data.ClipCount); return data.Clips[clip].Duration; }
+    public float GetClipDuration(int clip)
+    {
+      Check(clip, data.ClipCount);
+      float duration = data.Clips[clip].Duration;
+      GC.KeepAlive(this);
+      return duration;
+    }
 
     /// <summary>Throws if there is none of that name.</summary>
     public int FindBone(string name)
@@ -180,6 +193,14 @@ namespace Sunder
 
     /// <summary>Assets and scenes that were made from it stay.</summary>
     public void Dispose() { handle.Dispose(); }
+
+    /// <summary>Keeps the character, whose text it is, until it was read.</summary>
+    string Text(byte* text)
+    {
+      string read = Utf8.Read(text);
+      GC.KeepAlive(this);
+      return read;
+    }
 
     void Check() { uint unused = handle.Number; }
 

@@ -9,11 +9,12 @@ namespace Sunder
     readonly AssetHandle handle;
     readonly Epoch epoch;
 
-    /// <summary>O(size of the character): on a loading thread. materials: of soft tissue; all starts with the first. coarser: a coarser
+    /// <summary>O(size of the character): on a loading thread. materials: of soft tissue; all starts with the first; null: the default one. coarser: a coarser
     /// level with the same bones, which options.CoarserBelow speaks of.</summary>
     public CharacterAsset(Character character, AssetOptions? options = null, TissueMaterial[] materials = null, CharacterAsset coarser = null)
     {
       if (character == null) throw new ArgumentNullException("character");
+      Library.CheckNotEmpty(materials, "materials");
       Character = character;
       AssetOptions chosen = options ?? AssetOptions.Default;
       if (coarser != null) chosen.Coarser = coarser.Number;
@@ -73,6 +74,7 @@ namespace Sunder
     /// <summary>The tension, N/m, under which a straight wound of `length` opens by `gap` metres in its middle.</summary>
     public static double TensionForGap(TissueMaterial material, double length, double gap)
     {
+      Library.Require();
       double tension;
       SunderException.Check(NativeCalls.sunder_tension_for_gap(&material, length, gap, &tension));
       return tension;
@@ -82,6 +84,7 @@ namespace Sunder
     /// surface; motion: of the tip since the last frame.</summary>
     public static Vector3d BladeForce(CuttingResistance tissue, double lengthTorn, double depth, Vector3d motion)
     {
+      Library.Require();
       Vector3d force;
       SunderException.Check(NativeCalls.sunder_blade_force(&tissue, lengthTorn, depth, &motion, &force));
       return force;

@@ -63,5 +63,8 @@ namespace Sunder
 
     /// <summary>Throws if what is seen has changed since. Without an epoch nothing is seen.</summary>
     internal void Check() { if (epoch != null) epoch.Check(version); }
+
+    /// <summary>After the last read of the library's memory: until then the collector does not destroy what owns it.</summary>
+    internal void KeepAlive() { GC.KeepAlive(epoch); }
   }
 }

@@ -4,8 +4,9 @@ using Sunder.Native;
 
 namespace Sunder
 {
-  /// <summary>The number of an object of the library, which is destroyed with it. Numbers are never used again, so a thread that
-  /// still uses one that another thread has disposed gets an error.</summary>
+  /// <summary>The number of an object of the library, which is destroyed with it. Numbers are never used again, so a call that comes
+  /// after Dispose() gets an error. Dispose() must not run while another thread uses the object: nothing waits for a call or a read of
+  /// the library's memory that has begun.</summary>
   public abstract class LibraryHandle : SafeHandle
   {
     internal readonly string Kind;

@@ -18,10 +18,10 @@ namespace Sunder
     public ulong Id { get; private set; }
     public CharacterAsset Asset { get; private set; }
 
-    uint SceneNumber { get { return Scene.Number; } }
+    internal uint SceneNumber { get { return Scene.Number; } }
 
     /// <summary>Throws what failed, and keeps the scene until here.</summary>
-    void Check(Status status)
+    internal void Check(Status status)
     {
       GC.KeepAlive(Scene);
       SunderException.Check(status);
@@ -220,18 +220,18 @@ namespace Sunder
       this.id = id;
     }
 
-    public void Seek(double time) { SunderException.Check(NativeCalls.sunder_seek_layer(instance.Scene.Number, instance.Id, id, time)); }
-    public void SetSpeed(double speed) { SunderException.Check(NativeCalls.sunder_set_layer_speed(instance.Scene.Number, instance.Id, id, speed)); }
-    public void Fade(float weight, double seconds) { SunderException.Check(NativeCalls.sunder_fade_layer(instance.Scene.Number, instance.Id, id, weight, seconds)); }
+    public void Seek(double time) { instance.Check(NativeCalls.sunder_seek_layer(instance.SceneNumber, instance.Id, id, time)); }
+    public void SetSpeed(double speed) { instance.Check(NativeCalls.sunder_set_layer_speed(instance.SceneNumber, instance.Id, id, speed)); }
+    public void Fade(float weight, double seconds) { instance.Check(NativeCalls.sunder_fade_layer(instance.SceneNumber, instance.Id, id, weight, seconds)); }
     /// <summary>Fades it out and ends it.</summary>
-    public void Stop(double seconds = 0) { SunderException.Check(NativeCalls.sunder_stop_layer(instance.Scene.Number, instance.Id, id, seconds)); }
+    public void Stop(double seconds = 0) { instance.Check(NativeCalls.sunder_stop_layer(instance.SceneNumber, instance.Id, id, seconds)); }
 
     public LayerState State
     {
       get
       {
         LayerState state = LayerState.Sized;
-        SunderException.Check(NativeCalls.sunder_get_layer(instance.Scene.Number, instance.Id, id, &state));
+        instance.Check(NativeCalls.sunder_get_layer(instance.SceneNumber, instance.Id, id, &state));
         return state;
       }
     }

@@ -24,9 +24,11 @@ namespace Sunder
     }
 
     /// <summary>Cuts by a plane: PlaneCut.Default with a point and a normal. bounds: corners of a convex polygon; sections: only the
-    /// section nearest to each place is cut; bone: only sections that this bone's branch moves.</summary>
+    /// section nearest to each place is cut; bone: only sections that this bone's branch moves. null: no such limit.</summary>
     public Command Cut(PlaneCut cut, Vector3d[] bounds = null, Vector3d[] sections = null, string bone = null, SubmitFlags flags = SubmitFlags.None)
     {
+      Library.CheckNotEmpty(bounds, "bounds");
+      Library.CheckNotEmpty(sections, "sections");
       ulong id;
       fixed (Vector3d* firstBound = bounds)
       fixed (Vector3d* firstSection = sections)

@@ -72,6 +72,7 @@ namespace Sunder
     {
       if (piece == null) throw new ArgumentNullException("piece");
       Check(NativeCalls.sunder_inherit_motion(SceneNumber, Id, piece.Number));
+      GC.KeepAlive(piece);
     }
 
     /// <summary>The first place where a ray meets the surface as it was drawn last.</summary>
@@ -116,7 +117,7 @@ namespace Sunder
       this.id = id;
     }
 
-    public void Move(Vector3d target) { SunderException.Check(NativeCalls.sunder_move_hold(instance.Scene.Number, instance.Id, id, &target)); }
-    public void Release() { SunderException.Check(NativeCalls.sunder_release_hold(instance.Scene.Number, instance.Id, id)); }
+    public void Move(Vector3d target) { instance.Check(NativeCalls.sunder_move_hold(instance.SceneNumber, instance.Id, id, &target)); }
+    public void Release() { instance.Check(NativeCalls.sunder_release_hold(instance.SceneNumber, instance.Id, id)); }
   }
 }

@@ -9,7 +9,7 @@ namespace Sunder
   {
     static bool isChecked;
 
-    /// <summary>Throws if the library is of another version than this binding. Whatever makes an object calls it first.</summary>
+    /// <summary>Throws if the library is of another version than this binding. Whatever makes an object, and Default of each struct, calls it first.</summary>
     public static void Require()
     {
       if (isChecked) return;
@@ -49,6 +49,12 @@ namespace Sunder
     }
 
     internal static string TakeText(uint bytes) { return System.Text.Encoding.UTF8.GetString(Take(bytes)); }
+
+    /// <summary>Refuses an array without elements where null stands for all: a list that turned out empty would get them.</summary>
+    internal static void CheckNotEmpty(Array array, string name)
+    {
+      if (array != null && array.Length == 0) throw new ArgumentException(name + " is empty: leave it out (null) to have the default", name);
+    }
 
     /// <summary>Refuses an array of which the library would read too much.</summary>
     internal static void CheckLength(Array array, long wanted, string name)

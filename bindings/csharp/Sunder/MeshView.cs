@@ -17,7 +17,7 @@ namespace Sunder
       this.tables = tables.Now;
     }
 
-    public string Name { get { tables.Check(); return Utf8.Read(raw.Name); } }
+    public string Name { get { tables.Check(); return Text(raw.Name); } }
     public int VertexCount { get { return (int)raw.VertexCount; } }
     public int TriangleCount { get { return (int)raw.TriangleCount; } }
     public int SubmeshCount { get { return (int)raw.SubmeshCount; } }
@@ -39,12 +39,17 @@ namespace Sunder
     public FloatView UvSet(int set) { CheckIndex(set, raw.UvSetCount); return Floats(raw.UvSets[set], 2); }
     /// <summary>4 per vertex, linear.</summary>
     public FloatView ColorSet(int set) { CheckIndex(set, raw.ColorSetCount); return Floats(raw.ColorSets[set], 4); }
-    public string AttributeName(int attribute) { CheckIndex(attribute, raw.AttributeCount); return Utf8.Read(raw.Attributes[attribute].Name); }
+    public string AttributeName(int attribute) { CheckIndex(attribute, raw.AttributeCount); return Text(raw.Attributes[attribute].Name); }
     /// <summary>AttributeWidth() per vertex.</summary>
     public FloatView AttributeValues(int attribute) { return Floats(raw.Attributes[Checked(attribute, raw.AttributeCount)].Values, AttributeWidth(attribute)); }
-    public int AttributeWidth(int attribute) { return (int)raw.Attributes[Checked(attribute, raw.AttributeCount)].Components; }
+    public int AttributeWidth(int attribute)
+    {
+      int width = (int)raw.Attributes[Checked(attribute, raw.AttributeCount)].Components;
+      tables.KeepAlive();
+      return width;
+    }
 
-    public string MorphTargetName(int target) { return Utf8.Read(raw.MorphTargets[Checked(target, raw.MorphTargetCount)].Name); }
+    public string MorphTargetName(int target) { return Text(raw.MorphTargets[Checked(target, raw.MorphTargetCount)].Name); }
     /// <summary>3 per vertex, or none.</summary>
     public FloatView PositionDeltas(int target) { return Floats(raw.MorphTargets[Checked(target, raw.MorphTargetCount)].PositionDeltas, 3); }
     public FloatView NormalDeltas(int target) { return Floats(raw.MorphTargets[Checked(target, raw.MorphTargetCount)].NormalDeltas, 3); }
@@ -57,25 +62,37 @@ namespace Sunder
       get
       {
         tables.Check();
-        return new InfluenceView(raw.Influences, raw.VertexCount == 0 ? 0 : raw.FirstInfluence[raw.VertexCount], arrays);
+        uint count = raw.VertexCount == 0 ? 0 : raw.FirstInfluence[raw.VertexCount];
+        tables.KeepAlive();
+        return new InfluenceView(raw.Influences, count, arrays);
       }
     }
 
     /// <summary>3 per triangle, counter-clockwise; one vertex three times: removed.</summary>
     public UIntView Triangles { get { tables.Check(); return new UIntView(raw.Triangles, 3ul * raw.TriangleCount, arrays); } }
     public UIntView TriangleSubmesh { get { tables.Check(); return new UIntView(raw.TriangleSubmesh, raw.TriangleCount, arrays); } }
-    public string SubmeshName(int submesh) { return Utf8.Read(raw.Submeshes[Checked(submesh, raw.SubmeshCount)].Name); }
+    public string SubmeshName(int submesh) { return Text(raw.Submeshes[Checked(submesh, raw.SubmeshCount)].Name); }
     /// <summary>Index in the source file; null: none.</summary>
     public uint? SubmeshMaterial(int submesh)
     {
       uint material = raw.Submeshes[Checked(submesh, raw.SubmeshCount)].Material;
+      tables.KeepAlive();
       return material == Constants.None ? (uint?)null : material;
     }
 
+    /// <summary>What is handed in was read from the tables, so they are kept until here.</summary>
     FloatView Floats(float* first, int width)
     {
       tables.Check();
+      tables.KeepAlive();
       return new FloatView(first, (ulong)width * raw.VertexCount, arrays);
+    }
+
+    string Text(byte* text)
+    {
+      string read = Utf8.Read(text);
+      tables.KeepAlive();
+      return read;
     }
 
     void CheckIndex(int index, uint count)

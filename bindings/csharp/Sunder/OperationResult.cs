@@ -53,7 +53,16 @@ namespace Sunder
     public Status Status { get { return raw.Status; } }
     public bool Succeeded { get { return raw.Status == Status.Ok; } }
     /// <summary>What is wrong; "" if it succeeded.</summary>
-    public string Error { get { scene.CheckResults(version); return Utf8.Read(raw.Error); } }
+    public string Error
+    {
+      get
+      {
+        scene.CheckResults(version);
+        string error = Utf8.Read(raw.Error);
+        GC.KeepAlive(scene);
+        return error;
+      }
+    }
     public uint? ErrorIndex { get { return raw.ErrorIndex == Constants.None ? (uint?)null : raw.ErrorIndex; } }
     /// <summary>Of torn surface; 0: it missed.</summary>
     public int Runs { get { return (int)raw.Runs; } }

@@ -93,14 +93,21 @@ namespace Sunder
     public void Update(double seconds)
     {
       Change();
+      ForgetResults();
       SunderException.Check(NativeCalls.sunder_update(Number, seconds));
       Result* first;
       uint count;
       SunderException.Check(NativeCalls.sunder_get_results(Number, &first, &count));
       results = first;
       resultCount = (int)count;
-      ++resultVersion;
       GC.KeepAlive(this);
+    }
+
+    /// <summary>They are not current any more.</summary>
+    void ForgetResults()
+    {
+      resultCount = 0;
+      ++resultVersion;
     }
 
     /// <summary>Outcomes of the commands that the last update applied.</summary>
@@ -123,6 +130,7 @@ namespace Sunder
         result = GetResult(i);
         return true;
       }
+      GC.KeepAlive(this);
       result = default(OperationResult);
       return false;
     }
@@ -187,10 +195,12 @@ namespace Sunder
       fixed (byte* bytes = snapshot)
       fixed (uint* first = numbers)
         SunderException.Check(NativeCalls.sunder_restore_scene(Number, bytes, (ulong)snapshot.LongLength, first, (uint)numbers.Length, &chosen));
-      resultCount = 0;
-      ++resultVersion;
+      ForgetResults();
       GC.KeepAlive(assets);
     }
+
+    /// <summary>Whether Dispose() was called.</summary>
+    public bool IsDisposed { get { return handle.IsClosed; } }
 
     public void Dispose() { handle.Dispose(); }
   }

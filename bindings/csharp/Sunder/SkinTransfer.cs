@@ -22,6 +22,7 @@ namespace Sunder
     {
       if (source == null) throw new ArgumentNullException("source");
       if (target == null) throw new ArgumentNullException("target");
+      Library.CheckNotEmpty(bones, "bones");
       int vertices = 0;
       for (int i = 0; i < target.MeshCount; ++i) vertices += target.GetMesh(i).VertexCount;
       TransferOptions chosen = options ?? TransferOptions.Default;

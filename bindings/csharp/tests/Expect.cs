@@ -42,6 +42,14 @@ namespace Sunder.Tests
       }
       throw new TestFailure(typeof(E).Name + " \"" + words + "\" was expected; nothing was thrown");
     }
+
+    /// <summary>A failure of the library, of a kind.</summary>
+    internal static SunderException Fails(Action act, Status code, string words = "")
+    {
+      SunderException exception = Throws<SunderException>(act, words);
+      Equal(exception.Code, code, "code of \"" + exception.Message + "\"");
+      return exception;
+    }
   }
 
   /// <summary>Compares sizes, offsets and constants with those of the C compiler.</summary>

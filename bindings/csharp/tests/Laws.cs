@@ -94,6 +94,7 @@ namespace Sunder.Tests
       UIntView triangles = character.GetMesh(0).Triangles;
       Expect.Equal(origins.Length, mesh.VertexCount - source, "origins");
       Expect.Equal(torn.GetTriangleOrigins(0).Length, mesh.TriangleCount, "triangles");
+      int onTriangles = 0;
       for (int v = 0; v < origins.Length; ++v)
       {
         if (origins[v].Triangle == Constants.None) continue;
@@ -106,7 +107,9 @@ namespace Sunder.Tests
         }
         Expect.Near(sum, 1, 1e-12, "barycentric coordinates of vertex " + v);
         Expect.Near(positions[3 * (source + v)], x, 1e-5, "position of vertex " + v);
+        ++onTriangles;
       }
+      Expect.That(onTriangles > 0, "vertices that come from triangles were compared");
       FloatView weights = default(FloatView);
       Expect.Equal(weights.Count, 0, "an empty view");
       UIntView first = mesh.FirstInfluence;
@@ -236,7 +239,8 @@ namespace Sunder.Tests
         // The locked one, and the vertex of the same place beyond the seam.
         Expect.That(others <= 2 && FirstBoneWeight(made.Character, locked.Length - 1) == 1, "vertices with other weights: " + others);
         Expect.Throws<ArgumentException>(() => SkinTransfer.Make(tube, bare, null, null, null, new bool[3]), "locked has 3");
-        Expect.Throws<SunderException>(() => SkinTransfer.Make(tube, bare, null, null, new[] { "no such bone" }), "no such bone");
+        Expect.Fails(() => SkinTransfer.Make(tube, bare, null, null, new[] { "no such bone" }), Status.NotFound, "no such bone");
+        Expect.Throws<ArgumentException>(() => SkinTransfer.Make(tube, bare, null, null, new string[0]), "bones is empty");
       }
     }
 

@@ -68,8 +68,7 @@ namespace Sunder.Tests
       instance.Scene.Update(0);
       OperationResult failed;
       Expect.That(command.TryGetResult(out failed) && !failed.Succeeded, "nothing to undo");
-      SunderException exception = Expect.Throws<SunderException>(() => command.Result.Check(), failed.Error);
-      Expect.Equal(exception.Code, failed.Status, "code");
+      Expect.Fails(() => command.Result.Check(), failed.Status, failed.Error);
       instance.Scene.Update(0);
       Expect.Throws<StaleViewException>(() => failed.Error.ToString(), "earlier update");
       Expect.Throws<InvalidOperationException>(() => command.Result.Check(), "did not apply");
@@ -88,20 +87,50 @@ namespace Sunder.Tests
       Expect.Throws<ArgumentNullException>(() => Character.FromGlb(null), "glb");
       Expect.Throws<ArgumentException>(() => character.FindBone("bone0\0"), "zero in it");
       Expect.Throws<ArgumentOutOfRangeException>(() => character.GetBone(bones), "elements");
-      SunderException notFound = Expect.Throws<SunderException>(() => character.FindBone("no such bone"), "not_found");
-      Expect.Equal(notFound.Code, Status.NotFound, "code");
-      Expect.Throws<SunderException>(() => Character.FromGlb(new byte[0]), "");
-      Expect.Throws<SunderException>(() => Character.FromGlb(new byte[100]), "unsupported_format");
-      SunderException range = Expect.Throws<SunderException>(() => instance.GetPosedMesh(7), "mesh 7");
-      Expect.Equal(range.Code, Status.IndexOutOfRange, "code");
-      Expect.Throws<SunderException>(() => instance.Tear(new BladePosition[2], new TearOptions()), "invalid_struct");
-      Expect.Throws<SunderException>(() => instance.Scene.Update(double.NaN), "");
-      Expect.Throws<SunderException>(() => instance.ApplyLog("{]"), "");
+      Expect.Fails(() => character.FindBone("no such bone"), Status.NotFound, "not_found");
+      Expect.Fails(() => Character.FromGlb(new byte[0]), Status.NullPointer);
+      Expect.Fails(() => Character.FromGlb(new byte[100]), Status.UnsupportedFormat);
+      Expect.Fails(() => instance.GetPosedMesh(7), Status.IndexOutOfRange, "mesh 7");
+      Expect.Fails(() => instance.Tear(new BladePosition[2], new TearOptions()), Status.InvalidStruct);
+      Expect.Fails(() => instance.Tear(new BladePosition[0]), Status.NullPointer);
+      Expect.Fails(() => instance.ApplyLog("{]"), Status.MalformedFile);
+      PlaneCut cut = PlaneCut.Default;
+      cut.Normal = new Vector3d(0, 1, 0);
+      Expect.Throws<ArgumentException>(() => instance.Cut(cut, new Vector3d[0]), "bounds is empty");
+      Expect.Throws<ArgumentException>(() => instance.Cut(cut, null, new Vector3d[0]), "sections is empty");
+      Expect.Throws<ArgumentException>(() => new CharacterAsset(character, null, new TissueMaterial[0]), "materials is empty");
       Expect.Throws<ArgumentException>(() => instance.Scene.Adopt(instance.Id + 1, instance.Asset), "no instance");
       Expect.That(instance.Scene.Find(instance.Id) == instance, "instances are found");
       instance.Destroy();
       Expect.That(!instance.Exists && instance.Scene.InstanceCount == 0, "it is destroyed");
-      Expect.Throws<SunderException>(() => instance.GetPosedMesh(), "");
+      Expect.Fails(() => instance.GetPosedMesh(), Status.NotFound);
+    }
+
+    /// <summary>After an update that failed there are no results, also not those of the update before.</summary>
+    internal static void FailedUpdates(Character character)
+    {
+      Instance instance = Spawn(character);
+      Command command = instance.Undo();
+      instance.Scene.Update(0);
+      OperationResult before = instance.Scene.GetResult(0), found;
+      Expect.Fails(() => instance.Scene.Update(double.NaN), Status.NonFiniteValue);
+      Expect.Equal(instance.Scene.ResultCount, 0, "results");
+      Expect.That(!command.TryGetResult(out found), "a result of an earlier update");
+      Expect.Throws<StaleViewException>(() => before.Error.ToString(), "earlier update");
+      instance.Scene.Update(0);
+    }
+
+    /// <summary>Default of a struct asks for the library's version first: as if nothing had been called yet.</summary>
+    internal static void VersionsAreChecked()
+    {
+      System.Reflection.FieldInfo isChecked = typeof(Library).GetField("isChecked", System.Reflection.BindingFlags.Static | System.Reflection.BindingFlags.NonPublic);
+      foreach (Action first in new Action[] { () => TearOptions.Default.ToString(), () => TissueMaterial.Default.ToString(), () => Tissue.Find("skin").ToString(),
+        () => Native.CharacterData.Default.ToString() })
+      {
+        isChecked.SetValue(null, false);
+        first();
+        Expect.Equal((bool)isChecked.GetValue(null), true, "the version was checked");
+      }
     }
 
     internal static void WrongCharacterArrays()
@@ -114,10 +143,9 @@ namespace Sunder.Tests
       Expect.Throws<ArgumentException>(() => Changed(a => a.Skins[0].BoneFromBind = new float[11]), "skin 0: BoneFromBind");
       Expect.Throws<ArgumentException>(() => Changed(a => a.RestMorphWeights = new float[1]), "RestMorphWeights");
       Expect.Throws<ArgumentNullException>(() => Changed(a => a.Bones[0] = null), "Bones[0]");
-      SunderException sum = Expect.Throws<SunderException>(() => Changed(a => a.Meshes[0].Influences[2].Weight = 0.5f), "weights_not_normalized");
-      Expect.Equal(sum.Code, Status.WeightsNotNormalized, "code");
+      SunderException sum = Expect.Fails(() => Changed(a => a.Meshes[0].Influences[2].Weight = 0.5f), Status.WeightsNotNormalized, "weights_not_normalized");
       Expect.Equal(sum.Index, (uint?)2, "index");
-      Expect.Throws<SunderException>(() => Changed(a => a.Meshes[0].Triangles[1] = 3), "index_out_of_range");
+      Expect.Fails(() => Changed(a => a.Meshes[0].Triangles[1] = 3), Status.IndexOutOfRange);
       Changed(a => { }).Dispose();
     }
 
@@ -151,10 +179,9 @@ namespace Sunder.Tests
       using (Character character = Character.FromGlb(text, false, uri => { asked = uri; return points; }))
         Expect.Equal(character.GetMesh(0).Positions[3], 1f, "a position from the other file");
       Expect.Equal(asked, "points.bin", "the file that was asked for");
-      Expect.Throws<SunderException>(() => Character.FromGlb(text, false, uri => { throw new IOException(); }), "");
-      SunderException absent = Expect.Throws<SunderException>(() => Character.FromGlb(text, false, uri => null), "");
-      Expect.Equal(absent.Code, Status.FileNotFound, "code");
-      Expect.Throws<SunderException>(() => Character.FromGlb(text), "path_not_allowed");
+      Expect.Fails(() => Character.FromGlb(text, false, uri => { throw new IOException(); }), Status.FileNotFound);
+      Expect.Fails(() => Character.FromGlb(text, false, uri => null), Status.FileNotFound);
+      Expect.Fails(() => Character.FromGlb(text), Status.PathNotAllowed);
     }
   }
 }

@@ -61,6 +61,8 @@ namespace Sunder.Tests
           Run("disposed objects", () => Misuse.DisposedObjects(tube));
           Run("stale views", () => Misuse.StaleViews(tube));
           Run("wrong arrays", () => Misuse.WrongArrays(tube));
+          Run("failed updates", () => Misuse.FailedUpdates(tube));
+          Run("versions", Misuse.VersionsAreChecked);
           Run("wrong arrays of a character", Misuse.WrongCharacterArrays);
           Run("file readers", Misuse.FileReaders);
           Run("frames without garbage", () => Frames.Run(tube));

@@ -92,7 +92,9 @@ namespace UnityEngine
     public bool IsReadable = true;
     public Bounds bounds { get; set; }
     public IndexFormat indexFormat { get; set; }
-    public Matrix4x4[] bindposes { get { return (Matrix4x4[])poses.Clone(); } set { poses = (Matrix4x4[])value.Clone(); } }
+    /// <summary>Of bind poses that were made.</summary>
+    public int Copies;
+    public Matrix4x4[] bindposes { get { ++Copies; return (Matrix4x4[])poses.Clone(); } set { poses = (Matrix4x4[])value.Clone(); } }
     public int subMeshCount { get { return submeshes.Length; } set { Array.Resize(ref submeshes, value); } }
 
     public void MarkDynamic() { }
@@ -110,8 +112,12 @@ namespace UnityEngine
         if (layout[i].stream > layout[i - 1].stream + 1) throw new ArgumentException("streams have a gap");
     }
 
+    /// <summary>Uploads throw.</summary>
+    public bool IsBroken;
+
     public void SetVertexBufferData<T>(T[] data, int dataStart, int meshBufferStart, int count, int stream = 0, MeshUpdateFlags flags = MeshUpdateFlags.Default) where T : struct
     {
+      if (IsBroken) throw new ArgumentException("a mesh that is broken");
       Uploaded += Copy(data, dataStart, streams[stream], meshBufferStart, count);
     }
 

@@ -285,7 +285,9 @@ namespace UnityEngine
     Transform[] list = new Transform[0];
     readonly float[] shapeWeights = new float[16];
     public Mesh sharedMesh { get; set; }
-    public Transform[] bones { get { return (Transform[])list.Clone(); } set { list = (Transform[])value.Clone(); } }
+    /// <summary>Of the list of bones that were made.</summary>
+    public int Copies;
+    public Transform[] bones { get { ++Copies; return (Transform[])list.Clone(); } set { list = (Transform[])value.Clone(); } }
     public float GetBlendShapeWeight(int shape) { return shapeWeights[shape]; }
     public void SetBlendShapeWeight(int shape, float weight) { shapeWeights[shape] = weight; }
     protected override Bounds LocalBounds { get { return sharedMesh.bounds; } }

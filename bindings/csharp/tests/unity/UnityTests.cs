@@ -148,11 +148,13 @@ namespace Sunder.Tests
       Rig rig = new Rig(CharacterSkinning.BySunder, false);
       List<TearInfo> torn = new List<TearInfo>();
       rig.Character.Torn.AddListener((who, info) => { if (who == rig.Character) torn.Add(info); });
-      rig.Character.Failed.AddListener((who, text) => { throw new TestFailure(text); });
+      string failure = "";
+      rig.Character.Failed.AddListener((who, text) => { failure = text; });
       Pose(rig, 20);
       int before = rig.Mesh.vertexCount;
       Sweep(rig, 60, 0.01f, 0.05f);
       Expect.That(torn.Count > 5 && torn[0].VerticesAdded > 0, "events: " + torn.Count);
+      Expect.Equal(failure, "", "what failed");
       Expect.That(rig.Character.Instance.GetPosedMesh().VertexCount > before + 50, "new vertices");
       ExpectBuffers(rig);
       ExpectOutside(rig);
@@ -390,10 +392,11 @@ namespace Sunder.Tests
     {
       Rig one = new Rig(CharacterSkinning.BySunder, false), other = new Rig(CharacterSkinning.BySunder, false, one.Mesh);
       int torn = 0;
+      string failure = "";
       foreach (Rig rig in new[] { one, other })
       {
         rig.Character.Torn.AddListener((who, info) => { ++torn; });
-        rig.Character.Failed.AddListener((who, text) => { throw new TestFailure(text); });
+        rig.Character.Failed.AddListener((who, text) => { failure = text; });
       }
       Host.Frame();
       Blade first = new GameObject("first").AddComponent<Blade>(), second = new GameObject("second").AddComponent<Blade>();
@@ -414,11 +417,184 @@ namespace Sunder.Tests
       Expect.Equal(second.MetCount, 1, "characters that it tears");
       Host.Frame();
       Expect.That(torn >= 4, "tears: " + torn);
+      Expect.Equal(failure, "", "what failed");
       int undo, redo;
       one.Character.Instance.GetUndoCounts(out undo, out redo);
       Expect.That(undo >= 1, "strokes");
       ExpectBuffers(one);
       foreach (UnityEngine.Object made in new UnityEngine.Object[] { first.gameObject, second.gameObject, one.Object, other.Object }) UnityEngine.Object.Destroy(made);
+    }
+
+    static void MoveBlade(Blade blade, Rig rig, float x, float y)
+    {
+      blade.EdgeTip = new Vector3(0, 0, 0.55f);
+      blade.transform.localRotation = rig.Object.transform.rotation;
+      blade.transform.localPosition = rig.Object.transform.TransformPoint(new Vector3(x, y, -0.3f));
+    }
+
+    static BladePosition UpTheSide(int step)
+    {
+      BladePosition blade = new BladePosition();
+      blade.Base = new Vector3d(0.01, 0.3 + 0.05 * step, -0.6);
+      blade.Tip = new Vector3d(0.01, 0.3 + 0.05 * step, 0);
+      return blade;
+    }
+
+    /// <summary>A stroke that a program opened by itself is the same with a blade that moves through the character meanwhile.</summary>
+    internal static void BladesLeaveStrokesOfOthers()
+    {
+      Rig alone = new Rig(CharacterSkinning.BySunder, false);
+      Host.Frame();
+      alone.Character.Instance.BeginStroke(UpTheSide(0));
+      for (int i = 1; i <= 20; ++i)
+      {
+        alone.Character.Instance.ExtendStroke(UpTheSide(i), 0.02);
+        Host.Frame();
+      }
+      alone.Character.Instance.EndStroke();
+      Host.Frame();
+      ulong wanted = alone.Character.Instance.Digest;
+      UnityEngine.Object.Destroy(alone.Object);
+
+      Rig rig = new Rig(CharacterSkinning.BySunder, false);
+      int refused = 0;
+      rig.Character.Failed.AddListener((who, text) => { ++refused; });
+      Host.Frame();
+      Blade blade = new GameObject("blade").AddComponent<Blade>();
+      rig.Character.Instance.BeginStroke(UpTheSide(0));
+      for (int i = 1; i <= 20; ++i)
+      {
+        rig.Character.Instance.ExtendStroke(UpTheSide(i), 0.02);
+        MoveBlade(blade, rig, -1.5f + 0.15f * i, 0.6f);
+        Host.Frame();
+      }
+      rig.Character.Instance.EndStroke();
+      Host.Frame();
+      Expect.Equal(refused, 1, "strokes of the blade that were refused: one, and not one per frame");
+      Expect.That(rig.Character.Instance.Digest == wanted && wanted != 0, "the stroke is that of a program without a blade");
+      for (int i = 1; i <= 20; ++i)
+      {
+        MoveBlade(blade, rig, 1.5f - 0.15f * i, 0.6f);
+        Host.Frame();
+      }
+      Expect.That(refused == 1 && rig.Character.Instance.Digest != wanted, "the blade tears when it comes back");
+      UnityEngine.Object.Destroy(blade.gameObject);
+      UnityEngine.Object.Destroy(rig.Object);
+    }
+
+    internal static void StrokesHaveOwners()
+    {
+      Rig rig = new Rig(CharacterSkinning.BySunder, false);
+      string failure = "";
+      rig.Character.Failed.AddListener((who, text) => { failure = text; });
+      Host.Frame();
+      object mine = new object(), others = new object();
+      Expect.Throws<ArgumentNullException>(() => rig.Character.BeginStroke(null, UpTheSide(0)), "owner");
+      Expect.That(!rig.Character.ExtendStroke(mine, UpTheSide(0), 0.02) && !rig.Character.EndStroke(mine), "no stroke was begun");
+      Expect.That(rig.Character.BeginStroke(mine, UpTheSide(0)) && rig.Character.HasStroke, "a stroke");
+      Expect.That(!rig.Character.BeginStroke(others, UpTheSide(0)), "a second stroke");
+      Expect.That(rig.Character.ExtendStroke(mine, UpTheSide(1), 0.02) && !rig.Character.ExtendStroke(others, UpTheSide(5), 0.02), "its owner goes on");
+      Blade blade = new GameObject("blade").AddComponent<Blade>();
+      for (int i = 0; i <= 10; ++i)
+      {
+        MoveBlade(blade, rig, -0.1f + 0.02f * i, 0.6f);
+        Host.Frame();
+        Expect.Equal(blade.MetCount + failure, "0", "characters that the blade tears, and what failed");
+      }
+      Expect.That(!rig.Character.EndStroke(others) && rig.Character.EndStroke(mine) && !rig.Character.HasStroke, "its owner ends it");
+      ulong torn = rig.Character.Instance.Digest;
+      Expect.That(torn != 0, "torn");
+      // Begun and ended within a frame.
+      Expect.That(rig.Character.BeginStroke(others, UpTheSide(4)) && rig.Character.ExtendStroke(others, UpTheSide(8), 0.02) && rig.Character.EndStroke(others), "a short one");
+      blade.enabled = false;
+      Host.Frame();
+      Host.Frame();
+      Expect.That(!rig.Character.HasStroke && rig.Character.Instance.Digest != torn, "the short one tore and is ended");
+      // Ended by itself where the character is disabled, also before the library has begun it.
+      rig.Character.BeginStroke(mine, UpTheSide(0));
+      rig.Character.enabled = false;
+      Expect.That(!rig.Character.ExtendStroke(mine, UpTheSide(1), 0.02), "a disabled character has no stroke");
+      rig.Character.enabled = true;
+      Host.Frame();
+      Host.Frame();
+      Expect.That(!rig.Character.HasStroke && rig.Character.BeginStroke(others, UpTheSide(0)), "a stroke after that");
+      Host.Frame();
+      Expect.Equal(failure, "", "what failed");
+      UnityEngine.Object.Destroy(blade.gameObject);
+      UnityEngine.Object.Destroy(rig.Object);
+    }
+
+    /// <summary>Characters that are disabled, as in a pool, leave a scene that is destroyed; those of a new scene work.</summary>
+    internal static void PooledCharactersLeave()
+    {
+      Rig pooled = new Rig(CharacterSkinning.BySunder, false), listed = new Rig(CharacterSkinning.ByUnity, false);
+      Host.Frame();
+      pooled.Character.enabled = false;
+      UnityEngine.Object.Destroy(TearScene.Current.gameObject);
+      Expect.That(pooled.Character.Instance == null && listed.Character.Instance == null, "no instance is left");
+      Expect.That(pooled.Renderer.enabled && listed.Renderer.sharedMesh == listed.Mesh, "the renderers draw what they had");
+      pooled.Character.enabled = true;
+      Host.Frame();
+      Expect.That(!pooled.Character.BeginStroke(pooled, UpTheSide(0)), "a stroke without an instance");
+      Rig next = new Rig(CharacterSkinning.BySunder, false);
+      Host.Frame();
+      ExpectBuffers(next);
+      // Also if a program disposed the scene, or destroyed the instance, by itself.
+      Rig gone = new Rig(CharacterSkinning.BySunder, false);
+      gone.Character.Instance.Destroy();
+      UnityEngine.Object.Destroy(gone.Object);
+      TearScene.Current.Scene.Dispose();
+      foreach (Rig rig in new[] { pooled, listed, next }) UnityEngine.Object.Destroy(rig.Object);
+      Expect.Equal(TearScene.Current.CharacterCount, 0, "characters");
+      UnityEngine.Object.Destroy(TearScene.Current.gameObject);
+    }
+
+    internal static void FailedEntriesLeaveNothing()
+    {
+      Rig one = new Rig(CharacterSkinning.BySunder, false), other = new Rig(CharacterSkinning.BySunder, false, one.Mesh);
+      CharacterAsset asset = one.Character.Instance.Asset;
+      int objects = Host.Count;
+      other.Bones[2].localPosition = new Vector3(float.NaN, 0, 0);
+      Expect.Throws<SunderException>(() => { Instance instance = other.Character.Instance; }, "finite");
+      Expect.That(TearScene.Current.Scene.InstanceCount == 1 && Host.Count == objects && other.Character.Mesh == null, "nothing is left of it");
+      other.Bones[2].localPosition = new Vector3(0, 0.7f, 0);
+      Host.Frame();
+      ExpectBuffers(other);
+      Expect.That(other.Character.Instance.Asset == asset, "the asset is shared");
+      UnityEngine.Object.Destroy(one.Object);
+      UnityEngine.Object.Destroy(other.Object);
+      Expect.Throws<ObjectDisposedException>(() => asset.GetTriangles(0), "CharacterAsset");
+    }
+
+    /// <summary>What one listener throws, or one character cannot draw, stops no other.</summary>
+    internal static void ListenersThatThrow()
+    {
+      Rig one = new Rig(CharacterSkinning.BySunder, false), other = new Rig(CharacterSkinning.BySunder, false, one.Mesh), broken = new Rig(CharacterSkinning.BySunder, false, one.Mesh);
+      Host.Frame();
+      bool heard = false;
+      one.Character.Failed.AddListener((who, text) => { throw new InvalidOperationException("thrown by a listener"); });
+      other.Character.Failed.AddListener((who, text) => { heard = true; });
+      one.Character.Undo();
+      other.Character.Undo();
+      broken.Character.Mesh.IsBroken = true;
+      Debug.Logged = "";
+      foreach (Rig rig in new[] { one, broken }) rig.Bend(20);
+      Pose(other, 20);
+      ExpectBuffers(one);
+      ExpectBuffers(other);
+      Expect.That(heard && Debug.Logged.Contains("thrown by a listener"), "logged: " + Debug.Logged);
+      Expect.That(!broken.Character.enabled && Debug.Logged.Contains("broken"), "one that cannot be drawn is disabled");
+      foreach (Rig rig in new[] { one, other, broken }) UnityEngine.Object.Destroy(rig.Object);
+    }
+
+    /// <summary>Getters of Unity that copy arrays are not called per bone.</summary>
+    internal static void ArraysAreReadOnce()
+    {
+      Rig rig = new Rig(CharacterSkinning.BySunder, false);
+      rig.Renderer.Copies = rig.Mesh.Copies = 0;
+      Host.Frame();
+      Expect.That(rig.Renderer.Copies <= 5 && rig.Mesh.Copies <= 2, "copies of bones: " + rig.Renderer.Copies + ", of bind poses: " + rig.Mesh.Copies);
+      UnityEngine.Object.Destroy(rig.Object);
     }
 
     internal static void SnapshotsComeBack()
@@ -536,7 +712,8 @@ namespace Sunder.Tests
     {
       int failed = 0;
       foreach (Action test in new Action[] { PosedPositionsAgree, BladeTears, OneSidedTear, UnitySkinsAsTheLibrary, ManyTearsGrowTheBuffers, PiecesFall,
-        CharactersShareAssets, FaultsHaveTexts, OneBladePerCharacter, SnapshotsComeBack, AMissingBoneStopsOneCharacter, SampleWorks, FramesMakeNoGarbage })
+        CharactersShareAssets, FaultsHaveTexts, OneBladePerCharacter, BladesLeaveStrokesOfOthers, StrokesHaveOwners,
+        PooledCharactersLeave, FailedEntriesLeaveNothing, ListenersThatThrow, ArraysAreReadOnce, SnapshotsComeBack, AMissingBoneStopsOneCharacter, SampleWorks, FramesMakeNoGarbage })
       {
         try
         {

@@ -22,6 +22,7 @@ namespace Sunder.Unity
     [Tooltip("The edge moves at least as far between two positions of a stroke, metres")]
     [SerializeField] float minimumDistance = 0.005f;
 
+    // Those in which it began a stroke. It is not there any more if the library refused it: another one is tried after the edge left.
     readonly List<TearableCharacter> met = new List<TearableCharacter>();
     Vector3 lastBase, lastTip;
     bool hasLast;
@@ -33,7 +34,14 @@ namespace Sunder.Unity
     public bool TearsAllLayers { get { return tearsAllLayers; } set { tearsAllLayers = value; } }
     public float MinimumDistance { get { return minimumDistance; } set { minimumDistance = value; } }
     /// <summary>Characters in which it makes a stroke now.</summary>
-    public int MetCount { get { return met.Count; } }
+    public int MetCount
+    {
+      get
+      {
+        ForgetDisabled();
+        return met.Count;
+      }
+    }
 
     void LateUpdate() { Move(Time.deltaTime); }
 
@@ -46,6 +54,7 @@ namespace Sunder.Unity
     /// <summary>The edge has come to where the transform is now.</summary>
     public void Move(float seconds)
     {
+      ForgetDisabled();
       Vector3 nowBase = transform.TransformPoint(edgeBase), nowTip = transform.TransformPoint(edgeTip);
       if (!hasLast)
       {
@@ -70,21 +79,27 @@ namespace Sunder.Unity
     void Meet(TearableCharacter character, Bounds swept, Vector3 nowBase, Vector3 nowTip, float seconds)
     {
       bool isNear = character.Renderer.bounds.Intersects(swept);
-      if (character.Cutter == this)
+      if (met.Contains(character))
       {
         // Also where it leaves: the last part of its way may be inside.
-        character.Instance.ExtendStroke(character.BladeToModel(nowBase, nowTip), seconds);
+        character.ExtendStroke(this, character.BladeToModel(nowBase, nowTip), seconds);
         if (!isNear) Leave(character);
       }
-      else if (isNear && character.Cutter == null && (nowBase != lastBase || nowTip != lastTip))
+      else if (isNear && !character.HasStroke && (nowBase != lastBase || nowTip != lastTip))
       {
         StrokeSampling sampling = StrokeSampling.Default;
         sampling.MinimumDistance = minimumDistance;
-        character.Instance.BeginStroke(character.BladeToModel(lastBase, lastTip), Options(), sampling);
-        character.Instance.ExtendStroke(character.BladeToModel(nowBase, nowTip), seconds);
-        character.Cutter = this;
+        character.BeginStroke(this, character.BladeToModel(lastBase, lastTip), Options(), sampling);
+        character.ExtendStroke(this, character.BladeToModel(nowBase, nowTip), seconds);
         met.Add(character);
       }
+    }
+
+    /// <summary>A character that is disabled or destroyed ends its stroke by itself.</summary>
+    void ForgetDisabled()
+    {
+      for (int i = met.Count - 1; i >= 0; --i)
+        if (met[i] == null || !met[i].IsListed) met.RemoveAt(i);
     }
 
     TearOptions Options()
@@ -97,11 +112,10 @@ namespace Sunder.Unity
     }
 
     /// <summary>Ends its stroke in a character.</summary>
-    internal void Leave(TearableCharacter character)
+    void Leave(TearableCharacter character)
     {
-      if (!met.Remove(character)) return;
-      character.Cutter = null;
-      character.Instance.EndStroke();
+      met.Remove(character);
+      character.EndStroke(this);
     }
   }
 }

@@ -65,8 +65,9 @@ namespace Sunder.Unity
         Parents = new[] { -1 };
         return;
       }
-      if (mesh.bindposes.Length < bones.Length)
-        throw new InvalidOperationException("the mesh '" + mesh.name + "' has " + mesh.bindposes.Length + " bind poses for " + bones.Length + " bones");
+      int poses = mesh.bindposes.Length;
+      if (poses < bones.Length)
+        throw new InvalidOperationException("the mesh '" + mesh.name + "' has " + poses + " bind poses for " + bones.Length + " bones");
       List<int> order = new List<int>();
       Dictionary<Transform, int> first = new Dictionary<Transform, int>();
       for (int i = 0; i < bones.Length; ++i)
@@ -140,14 +141,18 @@ namespace Sunder.Unity
 
     SkinArrays MakeSkin()
     {
-      int slots = Math.Max(1, renderer.bones.Length);
+      // Each of these getters makes a copy.
+      Transform[] bones = renderer.bones;
+      Matrix4x4[] poses = mesh.bindposes;
+      Dictionary<Transform, int> index = new Dictionary<Transform, int>();
+      for (int bone = 0; bone < SlotOfBone.Length; ++bone) index.Add(bones[SlotOfBone[bone]], bone);
+      int slots = Math.Max(1, bones.Length);
       SkinArrays skin = new SkinArrays { Name = mesh.name, Bones = new uint[slots], BoneFromBind = new float[12 * slots] };
       double[] matrix = new double[12];
       for (int slot = 0; slot < slots; ++slot)
       {
-        for (int bone = 0; bone < SlotOfBone.Length; ++bone)
-          if (renderer.bones[SlotOfBone[bone]] == renderer.bones[slot]) skin.Bones[slot] = (uint)bone;
-        Mirror.Write(SlotOfBone.Length == 0 ? Matrix4x4.identity : mesh.bindposes[slot], matrix, 0);
+        if (bones.Length > 0) skin.Bones[slot] = (uint)index[bones[slot]];
+        Mirror.Write(bones.Length == 0 ? Matrix4x4.identity : poses[slot], matrix, 0);
         for (int i = 0; i < 12; ++i) skin.BoneFromBind[12 * slot + i] = (float)matrix[i];
       }
       return skin;

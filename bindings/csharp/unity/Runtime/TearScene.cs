@@ -12,7 +12,9 @@ namespace Sunder.Unity
   {
     static TearScene current;
 
+    /// <summary>Those that are updated and drawn.</summary>
     readonly List<TearableCharacter> characters = new List<TearableCharacter>();
+    /// <summary>All that have an instance, also those that are disabled.</summary>
     readonly Dictionary<ulong, TearableCharacter> byInstance = new Dictionary<ulong, TearableCharacter>();
     readonly List<SharedAsset> assets = new List<SharedAsset>();
     Scene scene;
@@ -88,17 +90,10 @@ namespace Sunder.Unity
       asset.Source.Character.Dispose();
     }
 
-    internal void Add(TearableCharacter character)
-    {
-      characters.Add(character);
-      byInstance[character.Instance.Id] = character;
-    }
-
-    internal void Remove(TearableCharacter character, ulong instance)
-    {
-      characters.Remove(character);
-      byInstance.Remove(instance);
-    }
+    internal void Enter(TearableCharacter character, ulong instance) { byInstance.Add(instance, character); }
+    internal void Leave(ulong instance) { byInstance.Remove(instance); }
+    internal void Add(TearableCharacter character) { characters.Add(character); }
+    internal void Remove(TearableCharacter character) { characters.Remove(character); }
 
     void LateUpdate() { Step(Time.deltaTime); }
 
@@ -108,13 +103,13 @@ namespace Sunder.Unity
       if (characters.Count == 0) return;
       SendPoses();
       Scene.Update(seconds);
-      for (int i = 0; i < characters.Count; ++i) characters[i].Draw();
+      Draw();
       // Whoever listens may destroy characters and submit operations, but results stay until the next update.
       for (int i = 0; i < scene.ResultCount; ++i)
       {
         OperationResult result = scene.GetResult(i);
         TearableCharacter character;
-        if (byInstance.TryGetValue(result.InstanceId, out character)) character.Report(result);
+        if (byInstance.TryGetValue(result.InstanceId, out character)) Report(character, result);
         else if (result.HasPiece) result.TakePiece().Dispose();
       }
     }
@@ -137,9 +132,40 @@ namespace Sunder.Unity
       }
     }
 
+    /// <summary>The same for one that cannot be drawn.</summary>
+    void Draw()
+    {
+      for (int i = characters.Count - 1; i >= 0; --i)
+      {
+        TearableCharacter one = characters[i];
+        try
+        {
+          one.Draw();
+        }
+        catch (Exception exception)
+        {
+          Debug.LogException(exception, one);
+          one.enabled = false;
+        }
+      }
+    }
+
+    /// <summary>What a listener throws keeps no event from the others.</summary>
+    static void Report(TearableCharacter character, OperationResult result)
+    {
+      try
+      {
+        character.Report(result);
+      }
+      catch (Exception exception)
+      {
+        Debug.LogException(exception, character);
+      }
+    }
+
     void OnDestroy()
     {
-      for (int i = characters.Count - 1; i >= 0; --i) characters[i].Leave();
+      foreach (TearableCharacter one in new List<TearableCharacter>(byInstance.Values)) one.Leave();
       if (scene != null) scene.Dispose();
       scene = null;
       if (current == this) current = null;

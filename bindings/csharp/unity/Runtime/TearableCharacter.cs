@@ -57,11 +57,12 @@ namespace Sunder.Unity
     double[] matrices;
     float[] shapeWeights;
 
+    readonly OwnedStroke stroke = new OwnedStroke();
     Instance instance;
     bool isGone, isListed;
 
     /// <summary>In the scene of the library, for all that this component has no method for. Its space is model space: ToModel() and
-    /// ToWorld(). Made at the first frame, or when it is asked for; null after the component was destroyed.</summary>
+    /// ToWorld(). Made at the first frame, or when it is asked for; null after the component or the scene was destroyed.</summary>
     public Instance Instance
     {
       get
@@ -85,8 +86,10 @@ namespace Sunder.Unity
     /// <summary>That which is drawn.</summary>
     public UnityEngine.Mesh Mesh { get { return drawn == null ? null : drawn.Mesh; } }
     public Renderer Renderer { get { return drawnRenderer != null ? (Renderer)drawnRenderer : source; } }
-    /// <summary>The blade that makes a stroke now: an instance has one at a time.</summary>
-    internal Blade Cutter { get; set; }
+    /// <summary>Whether somebody makes a stroke by BeginStroke() now.</summary>
+    public bool HasStroke { get { return !stroke.IsFree; } }
+    /// <summary>Whether it is updated and drawn.</summary>
+    internal bool IsListed { get { return isListed; } }
 
     void RequireEarly(string field)
     {
@@ -97,8 +100,7 @@ namespace Sunder.Unity
 
     void Start()
     {
-      if (instance == null) Enter();
-      if (!isListed) Join();
+      if (Instance != null && !isListed) Join();
     }
 
     void OnEnable()
@@ -125,9 +127,13 @@ namespace Sunder.Unity
     void Part()
     {
       isListed = false;
-      if (Cutter != null) Cutter.Leave(this);
-      scene.Remove(this, instance.Id);
-      instance.IsVisible = false;
+      scene.Remove(this);
+      if (IsInScene(instance))
+      {
+        stroke.End(instance);
+        instance.IsVisible = false;
+      }
+      else stroke.Forget();
       if (drawnObject != null) drawnObject.SetActive(false);
     }
 
@@ -138,20 +144,47 @@ namespace Sunder.Unity
       source = GetComponent<SkinnedMeshRenderer>();
       if (isSoft && skinning == CharacterSkinning.ByUnity) throw new InvalidOperationException(name + ": tissue needs skinning by Sunder");
       scene = TearScene.Current;
+      Instance made = null;
       shared = scene.Share(source, new CharacterSettings { IsSkinnedByUnity = skinning == CharacterSkinning.ByUnity, IsSoft = isSoft,
         Tissue = isSoft ? tissue : "", Tension = tension });
-      sourceMesh = source.sharedMesh;
-      sourceMaterials = source.sharedMaterials;
-      bones = source.bones;
-      matrices = new double[12 * shared.Source.Character.BoneCount];
-      shapeWeights = new float[shared.Source.Character.MorphWeightCount];
-      instance = scene.Scene.Spawn(shared.Asset);
-      instance.PrepareToTear();
-      SendPose();
-      drawn = new DrawnMesh(shared.Source, skinning == CharacterSkinning.ByUnity, sourceMesh);
-      if (skinning == CharacterSkinning.BySunder) MakeRenderer();
+      try
+      {
+        sourceMesh = source.sharedMesh;
+        sourceMaterials = source.sharedMaterials;
+        bones = source.bones;
+        matrices = new double[12 * shared.Source.Character.BoneCount];
+        shapeWeights = new float[shared.Source.Character.MorphWeightCount];
+        made = scene.Scene.Spawn(shared.Asset);
+        made.PrepareToTear();
+        SendPose(made);
+        drawn = new DrawnMesh(shared.Source, skinning == CharacterSkinning.ByUnity, sourceMesh);
+        if (skinning == CharacterSkinning.BySunder) MakeRenderer();
+      }
+      catch
+      {
+        Discard(made);
+        throw;
+      }
+      instance = made;
+      scene.Enter(this, instance.Id);
       if (isActiveAndEnabled) Join();
     }
+
+    /// <summary>Takes back what Enter() has made, or made in part.</summary>
+    void Discard(Instance made)
+    {
+      if (made != null && IsInScene(made)) made.Destroy();
+      scene.Release(shared);
+      shared = null;
+      if (drawnObject != null) Destroy(drawnObject);
+      drawnObject = null;
+      drawnRenderer = null;
+      if (drawn != null) Destroy(drawn.Mesh);
+      drawn = null;
+    }
+
+    /// <summary>A program may have disposed the library's scene, or destroyed the instance.</summary>
+    static bool IsInScene(Instance one) { return !one.Scene.IsDisposed && one.Exists; }
 
     /// <summary>A transform of its own, without a scale, because model space has none.</summary>
     void MakeRenderer()
@@ -177,27 +210,28 @@ namespace Sunder.Unity
       isGone = true;
       if (instance == null) return;
       if (isListed) Part();
-      instance.Destroy();
+      scene.Leave(instance.Id);
+      Instance left = instance;
       instance = null;
-      scene.Release(shared);
+      stroke.Forget();
       if (source != null)
       {
         source.enabled = true;
         source.sharedMesh = sourceMesh;
         source.sharedMaterials = sourceMaterials;
       }
-      if (drawnObject != null) Destroy(drawnObject);
-      Destroy(drawn.Mesh);
-      drawn = null;
+      Discard(left);
     }
 
     // ---- a frame ----
 
-    internal void SendPose()
+    internal void SendPose() { SendPose(instance); }
+
+    void SendPose(Instance to)
     {
       shared.Source.ReadPose(transform, bones, matrices);
       if (shapeWeights.Length > 0) shared.Source.ReadShapeWeights(source, shapeWeights);
-      instance.SetMatrices(matrices, shapeWeights.Length > 0 ? shapeWeights : null);
+      to.SetMatrices(matrices, shapeWeights.Length > 0 ? shapeWeights : null);
     }
 
     internal void Draw()
@@ -230,8 +264,15 @@ namespace Sunder.Unity
       return slot < sourceMaterials.Length ? sourceMaterials[slot] : null;
     }
 
+    /// <summary>One that is disabled goes on with what was submitted before, but raises no events.</summary>
     internal void Report(OperationResult result)
     {
+      stroke.Hear(instance, result);
+      if (!isListed)
+      {
+        if (result.HasPiece) result.TakePiece().Dispose();
+        return;
+      }
       if (!result.Succeeded) failed.Invoke(this, result.Error);
       else if (result.HasPiece) detached.Invoke(this, result.TakePiece());
       else if (result.VerticesAdded > 0 || result.TrianglesRetired > 0 || result.TrianglesAdded > 0) torn.Invoke(this, new TearInfo(result));
@@ -251,6 +292,28 @@ namespace Sunder.Unity
       blade.Base = ToModel(edgeBase);
       blade.Tip = ToModel(edgeTip);
       return blade;
+    }
+
+    // ---- strokes over several frames ----
+
+    /// <summary>Begins a stroke, which `owner` alone goes on with and ends: a character has one at a time. Returns false if it has one;
+    /// use this instead of Instance.BeginStroke() where blades or other scripts tear too. Options of null: the default.</summary>
+    public bool BeginStroke(object owner, BladePosition blade, TearOptions? options = null, StrokeSampling? sampling = null)
+    {
+      if (owner == null) throw new ArgumentNullException("owner");
+      return Instance != null && stroke.Begin(instance, owner, blade, options, sampling);
+    }
+
+    /// <summary>seconds: since the last position. Returns false, and does nothing, if the stroke is not the owner's, as after the library
+    /// refused it (Failed tells why) or the character was disabled.</summary>
+    public bool ExtendStroke(object owner, BladePosition blade, double seconds) { return stroke.Extend(instance, owner, blade, seconds); }
+
+    /// <summary>The same for its end.</summary>
+    public bool EndStroke(object owner)
+    {
+      if (!stroke.IsOf(owner)) return false;
+      stroke.End(instance);
+      return true;
     }
 
     // ---- operations: the next frame applies them, in the pose of then ----

@@ -11,8 +11,6 @@ public sealed class MouseScalpel : MonoBehaviour
   [Tooltip("Of the gap, metres")]
   [SerializeField] float width = 0.004f;
 
-  bool isTearing;
-
   public TearableCharacter Character { get { return character; } set { character = value; } }
 
   void Update()
@@ -22,21 +20,20 @@ public sealed class MouseScalpel : MonoBehaviour
     bool isOn = Input.GetMouseButton(0) && character.Raycast(ray, 100, out hit);
     if (!isOn)
     {
-      if (isTearing) character.Instance.EndStroke();
-      isTearing = false;
+      character.EndStroke(this);
       return;
     }
     // From outside the surface to how deep it reaches, along the ray.
     BladePosition blade = character.BladeToModel(hit.Point - depth * ray.direction, hit.Point + depth * ray.direction);
-    if (isTearing)
-    {
-      character.Instance.ExtendStroke(blade, Time.deltaTime);
-      return;
-    }
+    if (character.ExtendStroke(this, blade, Time.deltaTime)) return;
     TearOptions options = TearOptions.Default;
     options.Width = width;
     options.WallDepth = depth;
-    character.Instance.BeginStroke(blade, options);
-    isTearing = true;
+    character.BeginStroke(this, blade, options);  // unless another one, as of a blade, goes on
+  }
+
+  void OnDisable()
+  {
+    if (character != null) character.EndStroke(this);
   }
 }
