@@ -512,7 +512,7 @@ test('memory stays as it is over tears that are undone', needsChromium, async ()
   const sizes = await page.evaluate(() => {
     const { studio, tools } = globalThis.studio, sizes = [];
     studio.actor.time = 0;  // so that frames before this one decide nothing
-    for (let i = 0; i < 300; ++i) {
+    for (let i = 0; i < 700; ++i) {  // the heap grows in steps until its holes fit
       const x = 0.44 + 0.04 * Math.sin(i), y = 0.3 + 0.1 * Math.cos(i);
       studio.begin(tools[1], eventAt(x, y, i));
       frames(1);
@@ -525,7 +525,7 @@ test('memory stays as it is over tears that are undone', needsChromium, async ()
     }
     return sizes;
   });
-  assert.equal(sizes[2], sizes[0], sizes.join());
+  assert.equal(sizes[6], sizes[4], sizes.join());
 }));
 
 test('a finger tears, a second one does not turn the view meanwhile, and one beside the character does', needsChromium, async () => withStudio(async (page) => {
