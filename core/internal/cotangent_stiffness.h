@@ -24,8 +24,8 @@ struct HalfCotangent {
 /// @param matrix  points x points.
 /// @return the number of edges, and of those whose sum was clamped.
 template <class Matrix>
-std::pair<Index, Index> add_cotangent_edges(std::vector<HalfCotangent>& halves, double least, double most,
-                                  Matrix& matrix) {
+std::pair<Index, Index> add_cotangent_edges(std::vector<HalfCotangent>& halves, double least,
+                                            double most, Matrix& matrix) {
   std::ranges::sort(halves, [](const HalfCotangent& a, const HalfCotangent& b) {
     return std::tie(a.first, a.second, a.value) < std::tie(b.first, b.second, b.value);
   });

@@ -56,7 +56,7 @@ class Shading {
   }
   [[nodiscard]] Surface surface_at(const TriangleTree::Hit& hit, const Vec3f& from,
                                    const Vec3f& along) const;
-  /// What a ray meets first, as far as neighbours are compared.
+  /// The first surface on a ray: what look_alike() compares of it.
   struct Glance {
     TriangleTree::Hit hit;
     Vec3f place = Vec3f::Zero(), normal = Vec3f::UnitY();
