@@ -1,14 +1,15 @@
+#include <sunder/bodies/mass_properties.h>
 #include <sunder/particles/fitted_colliders.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
-
-#include <Eigen/Eigenvalues>
+#include <utility>
 
 #include "core/internal/ordered.h"
 #include "core/internal/out_of_memory.h"
+#include "particles/internal/fitted_shape.h"
 
 namespace sunder {
 namespace {
@@ -30,19 +31,19 @@ std::vector<std::vector<Vec3d>> own_vertices(const Character& character) {
 }
 
 /// A frame whose y axis is the longest principal axis of the points, right-handed.
-Mat3d principal_axes(const std::vector<Vec3d>& points) {
+Mat3d axes_of(const std::vector<Vec3d>& points) {
   Vec3d mean = Vec3d::Zero();
   for (const Vec3d& point : points) mean += point;
   mean /= static_cast<double>(points.size());
   Mat3d spread = Mat3d::Zero();
   for (const Vec3d& point : points) {
     const Vec3d offset = point - mean;
-    spread += offset * offset.transpose();
+    spread += multiply(offset, offset.transpose());
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver{Eigen::Matrix3d(spread)};
+  const Mat3d principal = principal_axes(spread).axes;
   Mat3d axes;
-  axes.col(0) = solver.eigenvectors().col(1);
-  axes.col(1) = solver.eigenvectors().col(2);
+  axes.col(0) = principal.col(1);
+  axes.col(1) = principal.col(2);
   axes.col(2) = axes.col(0).cross(axes.col(1));
   return axes;
 }
@@ -77,8 +78,10 @@ Fitted fit_capsule(const std::vector<Vec3d>& points) {
   return {Collider::Capsule{radius, half_length}, disc * (2 * half_length + 4.0 / 3 * radius)};
 }
 
-Collider fit(std::vector<Vec3d> points, double friction) {
-  const Mat3d axes = principal_axes(points);
+}  // namespace
+
+Collider particles::fitted_shape(std::vector<Vec3d> points, double friction) {
+  const Mat3d axes = axes_of(points);
   Eigen::AlignedBox3d box;
   for (Vec3d& point : points) {
     point = multiply(axes.transpose(), point);
@@ -92,8 +95,6 @@ Collider fit(std::vector<Vec3d> points, double friction) {
           normalized(Quatd(axes)), friction};
 }
 
-}  // namespace
-
 Result<std::vector<BoneCollider>> fit_colliders(const Character& character, double friction) {
   return or_out_of_memory([&]() -> Result<std::vector<BoneCollider>> {
     if (!(friction >= 0) || !std::isfinite(friction))
@@ -102,10 +103,10 @@ Result<std::vector<BoneCollider>> fit_colliders(const Character& character, doub
     std::vector<BoneCollider> colliders;
     if (character.meshes.empty()) return colliders;
     if (const Status status = validate_character(character); !status) return status;
-    const std::vector<std::vector<Vec3d>> own = own_vertices(character);
+    std::vector<std::vector<Vec3d>> own = own_vertices(character);
     for (Index bone = 0; bone < own.size(); ++bone) {
       if (own[bone].empty()) continue;
-      colliders.push_back({bone, fit(own[bone], friction)});
+      colliders.push_back({bone, particles::fitted_shape(std::move(own[bone]), friction)});
     }
     return colliders;
   });

@@ -95,7 +95,7 @@ class Shares {
 
   [[nodiscard]] Quatf rotation(std::size_t bone) const {
     const auto rotation_of = [&](const Pose& pose) -> Vec4d {
-      return animation::unit(pose.parent_from_bone[bone].rotation).coeffs().cast<double>();
+      return unit(pose.parent_from_bone[bone].rotation).coeffs().cast<double>();
     };
     const Vec4d heaviest = rotation_of(*poses_[heaviest_]);
     const Vec4d sum = mean([&](const Pose& pose) -> Vec4d {

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "core/internal/ordered.h"
-#include "skinning/animation/rotation.h"
 #include "skinning/internal/bone_tree.h"
+#include "skinning/internal/rotation.h"
 
 namespace sunder {
 namespace {
@@ -58,7 +58,7 @@ Result<Quatd> rotation_in_parent(const Mat3d& model_from_parent, const Mat3d& mo
                                  std::uint32_t bone) {
   const Mat3d relative = multiply(inverse(model_from_parent), model_axes);
   if (!relative.allFinite()) return scaled_to_nothing(bone);
-  const auto nearest = animation::nearest_rotation(relative);
+  const auto nearest = nearest_rotation(relative);
   if (!nearest) return scaled_to_nothing(bone);
   return *nearest;
 }
@@ -76,7 +76,7 @@ Status rotate_bone(const Skeleton& skeleton, std::uint32_t bone, const Quatd& ro
   const Result<Quatd> turn = checked_rotation(bone, rotation);
   if (!turn) return turn.error();
   Quatf& local = pose.parent_from_bone[bone].rotation;
-  const Quatd before = animation::unit(Quatd(local.cast<double>()));
+  const Quatd before = unit(Quatd(local.cast<double>()));
   if (!before.coeffs().allFinite()) return not_finite(bone, "rotation");
   Quatd after = before;
   if (space == EditSpace::bone) {
@@ -91,7 +91,7 @@ Status rotate_bone(const Skeleton& skeleton, std::uint32_t bone, const Quatd& ro
     if (!found) return found.error();
     after = *found;
   }
-  local = animation::unit(after).cast<float>();
+  local = unit(after).cast<float>();
   return {};
 }
 

@@ -4,19 +4,14 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/internal/elementary.h"
 #include "core/internal/rotation_about.h"
-#include "skinning/animation/rotation.h"
+#include "skinning/animation/internal/swing_twist.h"
+#include "skinning/internal/rotation.h"
 
 namespace sunder::animation {
 namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
-
-/// The part of a rotation about a unit axis, as an angle in (-2 pi, 2 pi].
-double twist_angle(const Quatd& rotation, const Vec3d& axis) {
-  return 2.0 * elementary::atan2(dot(rotation.vec(), axis), rotation.w());
-}
 
 /// The angle plus whole turns, within the range; the limit that is nearer on the circle if there is
 /// no such angle.
@@ -57,18 +52,14 @@ Quatd JointRange::clamped(const Quatd& rotation) const {
   return rotation;
 }
 
-/// The rotation as a swing of the axis after a twist about it; each is limited.
+/// Swing and twist are limited each.
 Quatd JointRange::clamped_cone(const Quatd& relative) const {
-  const double along = dot(relative.vec(), axis_);
-  Quatd twist(relative.w(), along * axis_.x(), along * axis_.y(), along * axis_.z());
-  twist = norm(twist) > 1e-9 ? unit(twist) : Quatd(Quatd::Identity());
-  Quatd swing = multiply(relative, conjugate(twist));
-  if (swing.w() < 0.0) swing.coeffs() = -swing.coeffs();
-  const double sine = norm(swing.vec());
-  if (2.0 * elementary::atan2(sine, swing.w()) > cone_ && sine > 0.0)
-    swing = rotation_about(cone_, swing.vec() / sine);
-  return multiply(swing,
-                  rotation_about(into_range(twist_angle(twist, axis_), lower_, upper_), axis_));
+  const SwingTwist parts = split_rotation(relative, axis_);
+  const double sine = norm(parts.swing.vec());
+  const Quatd swing = parts.swing_angle > cone_ && sine > 0.0
+                          ? rotation_about(cone_, parts.swing.vec() / sine)
+                          : parts.swing;
+  return multiply(swing, rotation_about(into_range(parts.twist_angle, lower_, upper_), axis_));
 }
 
 Quatd JointRange::turned(const Quatd& rotation, const Vec3d& turn) const {

@@ -6,9 +6,10 @@
 
 #include "core/internal/elementary.h"
 #include "core/internal/out_of_memory.h"
+#include "skinning/animation/internal/limit_of_bones.h"
 #include "skinning/animation/pull_chain.h"
 #include "skinning/animation/pull_solver.h"
-#include "skinning/animation/rotation.h"
+#include "skinning/internal/rotation.h"
 
 namespace sunder {
 
@@ -28,25 +29,8 @@ Status no_bone(std::uint32_t bone, std::size_t count) {
                          "bone %u does not exist; the skeleton has %zu", bone, count);
 }
 
-Status check_limit(const BoneLimit& limit, std::uint32_t index, std::size_t bones) {
-  if (limit.bone >= bones) return no_bone(limit.bone, bones);
-  if (!limit.axis.allFinite() || limit.axis.isZero(0))
-    return Status::failure(StatusCode::invalid_argument, index,
-                           "limit %u, of bone %u: its axis is zero or not finite", index,
-                           limit.bone);
-  if (!(limit.upper - limit.lower >= 0.0))
-    return Status::failure(StatusCode::invalid_argument, index,
-                           "limit %u, of bone %u: its range is %g to %g", index, limit.bone,
-                           limit.lower, limit.upper);
-  if (limit.kind == BoneLimit::Kind::cone && !(limit.cone >= 0.0))
-    return Status::failure(StatusCode::invalid_argument, index,
-                           "limit %u, of bone %u: its cone is %g, but must be >= 0", index,
-                           limit.bone, limit.cone);
-  return {};
-}
-
 Status check_bones(const Skeleton& skeleton, std::span<const std::uint32_t> bones,
-                   std::span<const BoneLimit> limits, std::span<const float> stiffness) {
+                   std::span<const float> stiffness) {
   const std::size_t count = skeleton.bones.size();
   if (bones.empty())
     return Status::failure(StatusCode::empty_input, kNone, "no bone of the chain may turn");
@@ -60,35 +44,31 @@ Status check_bones(const Skeleton& skeleton, std::span<const std::uint32_t> bone
                              "the stiffness of bone %u is %g, but must be finite and >= 0",
                              bones[i], static_cast<double>(stiffness[i]));
   }
-  for (std::uint32_t i = 0; i < limits.size(); ++i)
-    if (const Status status = check_limit(limits[i], i, count); !status) return status;
   return {};
 }
 
-/// The joints in the order of the bones. @return invalid_argument for a bone or a limit that is
-/// given twice.
+/// The joints in the order of the bones. @return as limit_of_bones(); invalid_argument for a bone
+/// that is given twice.
 Result<std::vector<PullJoint>> make_joints(const Skeleton& skeleton,
                                            std::span<const std::uint32_t> bones,
                                            std::span<const BoneLimit> limits,
                                            std::span<const float> stiffness) {
-  const auto twice = [](std::uint32_t bone, const char* what) {
-    return Status::failure(StatusCode::invalid_argument, bone, "bone %u %s twice", bone, what);
-  };
-  std::vector<const BoneLimit*> limit_of(skeleton.bones.size(), nullptr);
-  for (const BoneLimit& limit : limits)
-    if (std::exchange(limit_of[limit.bone], &limit) != nullptr)
-      return twice(limit.bone, "has a limit");
+  const Result<std::vector<const BoneLimit*>> limit_of =
+      animation::limit_of_bones(limits, skeleton.bones.size());
+  if (!limit_of) return limit_of.error();
   std::vector<bool> is_listed(skeleton.bones.size(), false);
   std::vector<PullJoint> joints;
   for (std::size_t i = 0; i < bones.size(); ++i) {
-    if (is_listed[bones[i]]) return twice(bones[i], "is in the chain");
+    if (is_listed[bones[i]])
+      return Status::failure(StatusCode::invalid_argument, bones[i],
+                             "bone %u is in the chain twice", bones[i]);
     is_listed[bones[i]] = true;
     PullJoint& joint = joints.emplace_back();
     joint.bone = bones[i];
     if (!stiffness.empty()) joint.readiness = 1.0 / (1.0 + static_cast<double>(stiffness[i]));
-    if (const BoneLimit* const limit = limit_of[bones[i]])
-      joint.range = JointRange(
-          *limit, animation::unit(Quatd(skeleton.bones[bones[i]].rest.rotation.cast<double>())));
+    if (const BoneLimit* const limit = (*limit_of)[bones[i]])
+      joint.range =
+          JointRange(*limit, unit(Quatd(skeleton.bones[bones[i]].rest.rotation.cast<double>())));
   }
   return joints;
 }
@@ -179,7 +159,7 @@ Result<PosePuller> PosePuller::create(const Skeleton& skeleton,
                                       std::span<const std::uint32_t> bones,
                                       std::span<const BoneLimit> limits,
                                       std::span<const float> stiffness) {
-  if (const Status status = check_bones(skeleton, bones, limits, stiffness); !status) return status;
+  if (const Status status = check_bones(skeleton, bones, stiffness); !status) return status;
   return or_out_of_memory([&]() -> Result<PosePuller> {
     Result<std::vector<PullJoint>> joints = make_joints(skeleton, bones, limits, stiffness);
     if (!joints) return joints.error();
@@ -217,8 +197,7 @@ Result<PullReport> PosePuller::pull(std::span<const PullTarget> targets, Pose& p
     for (std::size_t j = 0; j < active.size(); ++j)
       if (state.has_turned(j))
         chain.set_rotation(
-            active[j],
-            animation::unit(Quatd(Quatf(chain.rotation(active[j]).cast<float>()).cast<double>())));
+            active[j], unit(Quatd(Quatf(chain.rotation(active[j]).cast<float>()).cast<double>())));
     report.error = chain.measure();
     if (report.error < report.error_before || was_outside)
       state.write(pose);

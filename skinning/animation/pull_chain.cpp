@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "skinning/animation/rotation.h"
+#include "skinning/internal/rotation.h"
 
 namespace sunder::animation {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/internal/elementary.h"
-#include "skinning/animation/rotation.h"
+#include "skinning/internal/rotation.h"
 
 namespace sunder::animation {
 namespace {

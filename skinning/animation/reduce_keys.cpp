@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/internal/elementary.h"
-#include "skinning/animation/rotation.h"
+#include "skinning/internal/rotation.h"
 #include "skinning/internal/sample_channel.h"
 
 namespace sunder::animation {

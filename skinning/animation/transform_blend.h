@@ -3,14 +3,9 @@
 #include <sunder/core/skeleton.h>
 
 #include "core/internal/ordered.h"
+#include "skinning/internal/rotation.h"
 
 namespace sunder::animation {
-
-/// A unit quaternion; identity for one without length.
-inline Quatf unit(const Quatf& rotation) {
-  const float length = norm(rotation);
-  return length > 0.0f ? Quatf(rotation.coeffs() / length) : Quatf(Quatf::Identity());
-}
 
 /// (1 - t) a + t b along the shorter arc, normalised.
 inline Quatf nlerp(const Quatf& a, const Quatf& b, float t) {
@@ -18,8 +13,6 @@ inline Quatf nlerp(const Quatf& a, const Quatf& b, float t) {
   const float sign = dot(from.coeffs(), to.coeffs()) < 0.0f ? -1.0f : 1.0f;
   return unit(Quatf(Vec4f((1.0f - t) * from.coeffs() + (sign * t) * to.coeffs())));
 }
-
-inline Quatf conjugate(const Quatf& q) { return {q.w(), -q.x(), -q.y(), -q.z()}; }
 
 /// @param t  in [0, 1]; 0 and 1 keep the bits of one side.
 inline void blend_transform(const BoneTransform& other, float t, BoneTransform& transform) {

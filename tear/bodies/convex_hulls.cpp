@@ -1,14 +1,12 @@
 #include <sunder/bodies/convex_hulls.h>
-#include <sunder/skinning/deform.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <utility>
 
 #include "core/internal/out_of_memory.h"
-#include "skinning/internal/character_pose.h"
 #include "tear/bodies/hull_of_points.h"
-#include "tear/bodies/internal/main_bones.h"
+#include "tear/bodies/internal/posed_surface.h"
 #include "tear/bodies/parts.h"
 #include "tear/bodies/qhull.h"
 
@@ -35,24 +33,6 @@ Status check_points(std::span<const Vec3d> points) {
       return Status::failure(StatusCode::non_finite_value, i, "point %u is not finite", i);
   return {};
 }
-
-/// The surface of all meshes of a character, posed.
-struct PosedSurface {
-  std::vector<Vec3d> positions;
-  std::vector<Triangle> triangles;
-  std::vector<std::uint32_t> bones;
-
-  void add(const Mesh& mesh, const Skin& skin, const CharacterPose& pose) {
-    const auto first = static_cast<std::uint32_t>(positions.size());
-    for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v)
-      positions.push_back(pose.position(mesh, v));
-    for (const Triangle& triangle : mesh.triangles)
-      triangles.push_back({triangle[0] + first, triangle[1] + first, triangle[2] + first});
-    bodies::MainBones main_bones(skin.bones.size());
-    for (const Triangle& triangle : mesh.triangles)
-      bones.push_back(is_retired(triangle) ? kNone : main_bones.of(triangle, mesh.weights, skin));
-  }
-};
 
 }  // namespace
 
@@ -105,11 +85,9 @@ Result<std::vector<ConvexHull>> convex_hulls(const Character& character, const M
                                              const HullOptions& options) {
   if (Status status = check_options(options); !status) return status;
   return or_out_of_memory([&]() -> Result<std::vector<ConvexHull>> {
-    CharacterPose posed;
-    if (Status status = posed.set(character, pose); !status) return status;
-    PosedSurface surface;
-    for (const Mesh& mesh : character.meshes) surface.add(mesh, character.skins[mesh.skin], posed);
-    return convex_hulls(surface.positions, surface.triangles, surface.bones, options);
+    const Result<bodies::PosedSurface> surface = bodies::pose_surface(character, pose);
+    if (!surface) return surface.error();
+    return convex_hulls(surface->positions, surface->triangles, surface->bones, options);
   });
 }
 

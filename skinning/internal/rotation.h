@@ -8,7 +8,7 @@
 #include "core/internal/elementary.h"
 #include "core/internal/ordered.h"
 
-namespace sunder::animation {
+namespace sunder {
 
 /// A rotation by a vector: its direction is the axis, its length the angle in radians.
 inline Quatd rotation_by(const Vec3d& vector) {
@@ -20,12 +20,19 @@ inline Quatd rotation_by(const Vec3d& vector) {
 }
 
 /// A unit quaternion; identity for one without length.
-inline Quatd unit(const Quatd& rotation) {
-  const double length = norm(rotation);
-  return length > 0.0 ? Quatd(rotation.coeffs() / length) : Quatd(Quatd::Identity());
+template <class Scalar>
+Eigen::Quaternion<Scalar, Eigen::DontAlign> unit(
+    const Eigen::Quaternion<Scalar, Eigen::DontAlign>& rotation) {
+  using Quat = Eigen::Quaternion<Scalar, Eigen::DontAlign>;
+  const Scalar length = norm(rotation);
+  return length > Scalar(0) ? Quat(rotation.coeffs() / length) : Quat(Quat::Identity());
 }
 
-inline Quatd conjugate(const Quatd& q) { return {q.w(), -q.x(), -q.y(), -q.z()}; }
+template <class Scalar>
+Eigen::Quaternion<Scalar, Eigen::DontAlign> conjugate(
+    const Eigen::Quaternion<Scalar, Eigen::DontAlign>& q) {
+  return {q.w(), -q.x(), -q.y(), -q.z()};
+}
 
 /// The rotation nearest to a matrix: its polar factor, by Newton's iteration (Higham 1986). Of a
 /// mirroring matrix, the third axis is turned around first. Empty if the matrix is singular.
@@ -45,4 +52,4 @@ inline std::optional<Quatd> nearest_rotation(const Mat3d& matrix) {
   return unit(Quatd(x));
 }
 
-}  // namespace sunder::animation
+}  // namespace sunder
