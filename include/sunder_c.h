@@ -988,6 +988,84 @@ SUNDER_C_API sunder_status sunder_move_collider(sunder_scene scene, sunder_insta
                                                 uint32_t collider, const double place[3],
                                                 const double rotation[4]);
 
+/* ---- Ragdolls ---- */
+
+typedef uint32_t sunder_ragdoll; /* a character as rigid bodies and joints of a physics engine */
+
+enum { SUNDER_JOINT_HINGE = 0, SUNDER_JOINT_CONE = 1 };
+
+/* How far a bone may turn from its rest. A hinge turns about its axis alone; in a cone the axis
+ * swings by at most `cone`, and the bone twists about it from `lower` to `upper`. */
+typedef struct sunder_bone_limit {
+  uint32_t bone;
+  uint32_t kind;  /* SUNDER_JOINT_... */
+  double axis[3]; /* in the bone's own frame; any length but zero */
+  double lower;   /* radians */
+  double upper;
+  double cone;
+} sunder_bone_limit;
+
+typedef struct sunder_ragdoll_options {
+  uint32_t struct_size;
+  uint32_t maximum_bodies; /* 1 to 1024; the lightest join others */
+  uint32_t open_surfaces;  /* SUNDER_SOLID_FANS or SUNDER_SOLID_SHELL */
+  uint32_t limit_count;
+  const sunder_bone_limit* limits; /* of joints, at most one per bone; of others: what clips show */
+  double least_share;              /* of the mass; lighter bodies join others */
+  double density;                  /* kg/m^3, > 0 */
+  double shell_thickness;          /* metres; 0: 1 % of the square root of the area */
+} sunder_ragdoll_options;
+
+/* A rigid body, and its joint to the body above. Frames are rotations and translations. */
+typedef struct sunder_ragdoll_body {
+  uint32_t bone;                /* that moves its part of the surface */
+  uint32_t parent;              /* body before it in the list; SUNDER_NONE: it has no joint */
+  double mass;                  /* > 0 */
+  double moments[3];            /* of inertia about the axes of the body, > 0 */
+  double model_from_body[12];   /* where it starts; the origin is its centre of mass */
+  double parent_from_joint[12]; /* the frame of the joint, fixed to the parent ... */
+  double body_from_joint[12];   /* ... and to this body; x is the axis of the limit */
+  sunder_collider shape;        /* ball, capsule or box around its part, in its frame */
+  sunder_bone_limit limit;      /* of the turn about x, and of the swing of x */
+} sunder_ragdoll_body;
+
+SUNDER_C_API sunder_ragdoll_options sunder_default_ragdoll_options(void);
+/* Makes a body of each bone that moves a part of a character most, for example of an animated piece
+ * that came off (sunder_get_piece_character()), and ties it to the nearest one; docs/ragdoll.md.
+ * model_from_bone: 12 numbers per bone, the pose in which it stands; morph_weights: of the
+ * character, null: those of rest. Fails: SUNDER_EMPTY_INPUT without a surface; an option, limit or
+ * number out of its range. */
+SUNDER_C_API sunder_status sunder_create_ragdoll(sunder_character character,
+                                                 const double* model_from_bone, uint32_t bone_count,
+                                                 const float* morph_weights,
+                                                 const sunder_ragdoll_options* options,
+                                                 sunder_ragdoll* ragdoll);
+SUNDER_C_API sunder_status sunder_destroy_ragdoll(sunder_ragdoll ragdoll);
+/* A view, valid until the ragdoll is destroyed; parents come first. */
+SUNDER_C_API sunder_status sunder_get_ragdoll_bodies(sunder_ragdoll ragdoll,
+                                                     const sunder_ragdoll_body** bodies,
+                                                     uint32_t* count);
+/* The convex hull of each body's part, in its frame. A view, valid until the next call for the
+ * ragdoll. One thread at a time per ragdoll. Fails: SUNDER_UNSUPPORTED_FEATURE without
+ * SUNDER_FEATURE_HULLS. */
+SUNDER_C_API sunder_status sunder_get_ragdoll_hulls(sunder_ragdoll ragdoll, uint32_t most_points,
+                                                    const sunder_hull** hulls, uint32_t* count);
+/* Where a pose puts the bodies: 12 numbers per body, written. Of two poses they give the velocities
+ * with which the bodies start; of a pose of a clip, targets of motors. */
+SUNDER_C_API sunder_status sunder_place_bodies(sunder_ragdoll ragdoll,
+                                               const double* model_from_bone, uint32_t bone_count,
+                                               double* model_from_body);
+/* How bodies in these places turn their joints: quaternions x y z w, one per body, written: from
+ * the frame fixed to the parent to that fixed to the body. */
+SUNDER_C_API sunder_status sunder_get_joint_turns(sunder_ragdoll ragdoll,
+                                                  const double* model_from_body,
+                                                  uint32_t body_count, double* turns);
+/* The pose in which bodies in these places hold the bones: 12 numbers per bone, written, for
+ * sunder_set_matrices(). */
+SUNDER_C_API sunder_status sunder_pose_of_bodies(sunder_ragdoll ragdoll,
+                                                 const double* model_from_body, uint32_t body_count,
+                                                 double* model_from_bone);
+
 /* ---- Contact ---- */
 
 typedef struct sunder_contact {

@@ -91,6 +91,7 @@ const char* name_of(Kind kind) {
     case Kind::asset: return "an asset";
     case Kind::scene: return "a scene";
     case Kind::piece: return "a piece";
+    case Kind::ragdoll: return "a ragdoll";
     case Kind::report: return "a report";
   }
   return "nothing";

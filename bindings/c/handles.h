@@ -7,7 +7,7 @@
 
 namespace sunder::c {
 
-enum class Kind : std::uint8_t { none, bytes, character, asset, scene, piece, report };
+enum class Kind : std::uint8_t { none, bytes, character, asset, scene, piece, ragdoll, report };
 
 [[nodiscard]] const char* name_of(Kind kind);
 

@@ -75,16 +75,8 @@ sunder_status sunder_get_piece_hulls(sunder_piece piece, uint32_t most_hulls, ui
     if (count == nullptr) return null_pointer("count");
     auto found = sunder::convex_hulls(*object->piece, sunder::HullOptions{most_hulls, most_points});
     if (!found) return report(found.error());
-    std::vector<sunder_hull> views;
-    for (const sunder::ConvexHull& hull : *found)
-      views.push_back({hull.points.empty() ? nullptr : hull.points.front().data(),
-                       hull.triangles.empty() ? nullptr : hull.triangles.front().data(),
-                       static_cast<uint32_t>(hull.points.size()),
-                       static_cast<uint32_t>(hull.triangles.size()), hull.part, 0, hull.volume});
-    object->hulls = std::move(*found);  // moving the lists keeps their arrays where they are
-    object->hull_views = std::move(views);
-    *hulls = object->hull_views.data();
-    *count = static_cast<uint32_t>(object->hull_views.size());
+    object->hulls.set(*std::move(found));
+    object->hulls.get(hulls, count);
     return SUNDER_OK;
   });
 }

@@ -126,6 +126,7 @@ class RandomArguments {
       if (kind == "sunder_asset") sunder_destroy_asset(one);
       if (kind == "sunder_scene") sunder_destroy_scene(one);
       if (kind == "sunder_piece") sunder_destroy_piece(one);
+      if (kind == "sunder_ragdoll") sunder_destroy_ragdoll(one);
       if (kind == "sunder_report") sunder_destroy_report(one);
     }
     kept_.clear();
