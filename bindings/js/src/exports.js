@@ -4,3 +4,4 @@ export { Model } from './model.js';
 export { Scene } from './scene.js';
 export { Instance } from './instance.js';
 export { Piece } from './piece.js';
+export { Ragdoll } from './ragdoll.js';

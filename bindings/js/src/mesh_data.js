@@ -27,6 +27,8 @@ export class MeshData {
     return Array.from({ length: count }, (_, i) => this.#array(Float32Array, this.#memory.u32(at + 4 * i), perVertex * this.vertexCount));
   }
 
+  /** The skin of the model on whose slots the influences are. */
+  get skin() { return this.#mesh.skin; }
   get positions() { return this.#array(Float32Array, this.#mesh.positions, 3 * this.vertexCount); }
   get normals() { return this.#array(Float32Array, this.#mesh.normals, 3 * this.vertexCount); }
   get tangents() { return this.#array(Float32Array, this.#mesh.tangents, 4 * this.vertexCount); }

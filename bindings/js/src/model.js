@@ -1,5 +1,5 @@
 // A rigged model, and what its instances share.
-import { sunder_asset_options, sunder_bone, sunder_clip, sunder_load_options, sunder_mesh, sunder_note, sunder_save_options, sunder_transform } from '../generated/calls.js';
+import { sunder_asset_options, sunder_bone, sunder_clip, sunder_load_options, sunder_mesh, sunder_note, sunder_save_options, sunder_skin, sunder_transform } from '../generated/calls.js';
 import { characterData } from './character_arrays.js';
 import { library } from './library.js';
 import { takeBytes } from './made_bytes.js';
@@ -7,6 +7,7 @@ import { materialOf } from './materials.js';
 import { MeshData } from './mesh_data.js';
 import { bytesOf, fieldsOf } from './options.js';
 import { Owned } from './owned.js';
+import { Ragdoll } from './ragdoll.js';
 import { invalidArgument } from './sunder_error.js';
 
 const NOTES = ['information', 'repaired', 'dropped', 'warning'];
@@ -60,6 +61,13 @@ export class Model extends Owned {
     return memory.readStructs(sunder_bone, bones, bone_count).map(({ name, parent, rest }) => ({
       name: memory.text(name), parent: parent === 0xFFFFFFFF ? null : parent, rest }));
   }
+  /** What vertices hang on: { name, bones, boneFromBind }; per slot a bone, and 12 numbers. As copies. */
+  get skins() {
+    const { skins, skin_count } = this.#data, { memory } = this.#calls;
+    return memory.readStructs(sunder_skin, skins, skin_count).map(({ name, bones, bone_from_bind, slot_count }) => ({
+      name: memory.text(name), bones: memory.viewOf(Uint32Array, bones, slot_count).slice(),
+      boneFromBind: memory.viewOf(Float32Array, bone_from_bind, 12 * slot_count).slice() }));
+  }
   /** { name, duration }. */
   get clips() {
     const { clips, clip_count } = this.#data, { memory } = this.#calls;
@@ -95,6 +103,9 @@ export class Model extends Owned {
       m.release(mark);
     }
   }
+
+  /** Rigid bodies and joints for a physics engine. @param matrices  the pose in which it stands */
+  ragdoll(matrices = this.matrices(), options = {}) { return new Ragdoll(this.#calls, this.handle, matrices, options); }
 
   toGLB(options) { return takeBytes(this.#calls, this.#calls.sunder_save_glb(this.handle, fieldsOf(sunder_save_options, options))); }
 }

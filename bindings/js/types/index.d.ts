@@ -69,7 +69,7 @@ export interface CharacterArrays {
 
 /** Arrays are views on the memory of the library, made at each reading: copy what you keep. */
 export interface MeshData {
-  readonly name: string; readonly vertexCount: number; readonly triangleCount: number;
+  readonly name: string; readonly vertexCount: number; readonly triangleCount: number; readonly skin: number;
   readonly submeshes: { name: string; material: number | null }[];
   readonly positions: Float32Array; readonly normals: Float32Array | null; readonly tangents: Float32Array | null;
   readonly uvSets: Float32Array[]; readonly colorSets: Float32Array[];
@@ -100,6 +100,8 @@ export class Model extends Disposable {
   readonly name: string;
   readonly meshCount: number;
   readonly bones: { name: string; parent: number | null; rest: Transform }[];
+  /** Per slot a bone, and 12 numbers: the inverse of its bind transform. */
+  readonly skins: { name: string; bones: Uint32Array; boneFromBind: Float32Array }[];
   readonly clips: { name: string; duration: number }[];
   readonly morphWeightCount: number;
   readonly notes: { kind: 'information' | 'repaired' | 'dropped' | 'warning'; place: string; text: string; count: number }[];
@@ -108,7 +110,39 @@ export class Model extends Disposable {
   clip(name: string | number): number;
   /** 12 numbers per bone, column after column, the translation last. */
   matrices(clip?: string | number | null, seconds?: number): Float64Array;
+  ragdoll(matrices?: Float64Array | number[], options?: RagdollOptions): Ragdoll;
   toGLB(options?: { maximumInfluences?: number }): Uint8Array;
+}
+
+/** How far a bone turns from its rest; radians. */
+export interface BoneLimit { bone: number; kind?: 'hinge' | 'cone'; axis: Vector3Like; lower?: number; upper?: number; cone?: number }
+export interface RagdollOptions {
+  maximumBodies?: number;
+  /** Of the mass; lighter bodies join others. */
+  leastShare?: number;
+  density?: number; openSurfaces?: 'fans' | 'shell'; shellThickness?: number;
+  morphWeights?: Float32Array | number[];
+  /** Of joints; of others: what the clips show. */
+  limits?: BoneLimit[];
+}
+/** A rigid body and its joint to the body above; frames are 12 numbers: a rotation, column after column, and a translation. */
+export interface RagdollBody {
+  bone: number; parent: number | null; mass: number; moments: number[];
+  modelFromBody: number[]; parentFromJoint: number[]; bodyFromJoint: number[];
+  shape: { kind: 'sphere' | 'capsule' | 'box'; size: number[]; place: number[]; rotation: number[] };
+  limit: { bone: number; kind: 'hinge' | 'cone'; axis: number[]; lower: number; upper: number; cone: number };
+}
+/** A model as rigid bodies and joints for a physics engine; made by Model.ragdoll(). */
+export class Ragdoll extends Disposable {
+  private constructor();
+  readonly bodies: RagdollBody[];
+  /** 12 numbers per body. */
+  place(matrices: Float64Array | number[]): Float64Array;
+  /** Quaternions x y z w, one per body. */
+  turns(places: Float64Array | number[]): Float64Array;
+  /** 12 numbers per bone. */
+  matrices(places: Float64Array | number[]): Float64Array;
+  hulls(options?: { points?: number }): { points: Float64Array; triangles: Uint32Array; volume: number }[];
 }
 
 export interface FillingOptions { weights?: WeightPolicy; maximumInfluences?: number; background?: boolean }
