@@ -140,7 +140,7 @@ test('a soft body of Jolt made of a torn mesh follows our skin', async () => {
       }
     }
     assert.ok(furthest < 1e-5 * size, `${name}: ${furthest / size} of the size`);
-    assert.ok(sagging > 1e-4 * size && sagging < 0.051 * size, `${name}: loose by ${sagging / size}`);
+    assert.ok(sagging > 1e-4 * size && sagging < 0.055 * size, `${name}: loose by ${sagging / size}`);
   }
 });
 
