@@ -56,6 +56,12 @@ namespace Sunder
     protected override bool ReleaseHandle() { return NativeCalls.sunder_destroy_piece(Raw) == Status.Ok; }
   }
 
+  sealed class RagdollHandle : LibraryHandle
+  {
+    internal RagdollHandle(uint number) : base("Ragdoll", number) { }
+    protected override bool ReleaseHandle() { return NativeCalls.sunder_destroy_ragdoll(Raw) == Status.Ok; }
+  }
+
   sealed class ReportHandle : LibraryHandle
   {
     internal ReportHandle(uint number) : base("ValidationReport", number) { }

@@ -52,6 +52,9 @@ namespace Sunder.Tests
           Run("operations", () => Laws.Operations(tube));
           foreach (string file in Directory.GetFiles(arguments[1], "*.glb"))
             Run("arrays of " + Path.GetFileName(file), () => { using (Character character = Character.FromGlb(File.ReadAllBytes(file))) Laws.Arrays(character); });
+          foreach (string file in Directory.GetFiles(arguments[1], "*.glb"))
+            Run("ragdoll of " + Path.GetFileName(file), () => { using (Character character = Character.FromGlb(File.ReadAllBytes(file))) Ragdolls.Check(character); });
+          Run("limits of ragdolls", () => Ragdolls.Limits(tube));
           Run("tissues", () => Laws.Tissues(tube));
           Run("transfers", () => Laws.Transfers(tube));
           Run("clips", () => Laws.Clips(tube));

@@ -220,6 +220,12 @@ class Character:
         abi.call('compute_matrices', self._handle, transforms, flat.ctypes.data_as(ctypes.POINTER(ctypes.c_double)))
         return matrices(flat)
 
+    def ragdoll(self, model_from_bone=None, **options):
+        """Rigid bodies and joints for a physics engine, in a pose, (bones, 3, 4), by default that of rest. options: maximum_bodies,
+        least_share, density, limits (a list of BoneLimit), morph_weights, and the other fields of sunder_ragdoll_options."""
+        from .ragdoll import Ragdoll
+        return Ragdoll(self, self.pose() if model_from_bone is None else model_from_bone, **options)
+
     def clip_index(self, clip: Union[str, int]) -> int:
         return self.find_clip(clip) if isinstance(clip, str) else clip
 

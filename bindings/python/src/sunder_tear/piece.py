@@ -2,25 +2,15 @@
 from __future__ import annotations
 
 import ctypes
-from dataclasses import dataclass
-from typing import Optional
 
 import numpy as np
 
 from .abi import abi
 from .arrays import copy
 from .character import Character
+from .hull import Hull
 
 _SOLIDS = ('closed', 'fans', 'shell')
-
-
-@dataclass(frozen=True)
-class Hull:
-    """A convex part, in the frame of the piece: points (n, 3), triangles (m, 3), and the bone whose part it is."""
-    points: np.ndarray
-    triangles: np.ndarray
-    volume: float
-    bone: Optional[int]
 
 
 class Piece:
@@ -57,9 +47,4 @@ class Piece:
         """Convex hulls for a physics engine. Raises SunderError if the library was built without Qhull."""
         pointer, count = ctypes.POINTER(abi.type('hull'))(), ctypes.c_uint32()
         abi.call('get_piece_hulls', self._handle, most_hulls, most_points, ctypes.byref(pointer), ctypes.byref(count))
-        result = []
-        for i in range(count.value):
-            raw = pointer[i]
-            bone = None if raw.bone == abi.constant('NONE') else raw.bone
-            result.append(Hull(copy(raw.points, raw.point_count, 3), copy(raw.triangles, raw.triangle_count, 3), raw.volume, bone))
-        return result
+        return [Hull.copied(pointer[i]) for i in range(count.value)]
