@@ -61,16 +61,48 @@ std::vector<std::vector<Triangle>> parts_of(const PosedSurface& surface, const B
   return parts;
 }
 
-/// Mass, moments, frame and shape of a body.
-Status fill_body(const std::vector<Vec3d>& positions, const std::vector<Triangle>& part,
+/// Whether the moments are those of a body, and its centre is within the box. A surface that runs
+/// through itself may count parts of space twice or negatively.
+bool is_of_a_body(const Vec3d& moments, const Vec3d& centre, const Vec3d& low, const Vec3d& high) {
+  return moments.minCoeff() > 0 && moments.sum() > 2 * moments.maxCoeff() * (1 - 1e-9) &&
+         (centre.array() >= low.array()).all() && (centre.array() <= high.array()).all();
+}
+
+/// Moments of a box of some mass about its centre.
+Vec3d moments_of_box(double mass, const Vec3d& size) {
+  const Vec3d squares = size.cwiseProduct(size);
+  return mass / 12 * (squares.sum() * Vec3d::Ones() - squares);
+}
+
+/// Mass, moments and frame of a body: those of its part, or of the box around it.
+Status fill_mass(const std::vector<Vec3d>& positions, const std::vector<Triangle>& part,
                  const MassOptions& options, RagdollBody& body) {
   const Result<MassProperties> mass = compute_mass(positions, part, options);
   if (!mass) return mass.error();
-  const PrincipalAxes principal = principal_axes(mass->inertia);
+  Vec3d low = positions[part[0][0]], high = low;
+  for (const Triangle& triangle : part)
+    for (const std::uint32_t vertex : triangle) {
+      low = low.cwiseMin(positions[vertex]);
+      high = high.cwiseMax(positions[vertex]);
+    }
+  PrincipalAxes principal = principal_axes(mass->inertia);
+  Vec3d centre = mass->centre;
+  if (!is_of_a_body(principal.moments, centre, low, high)) {
+    const Vec3d moments = moments_of_box(mass->mass, high - low);
+    principal = principal_axes(Mat3d(moments.asDiagonal()));
+    centre = 0.5 * (low + high);
+  }
   body.mass = mass->mass;
   body.moments = principal.moments.cwiseMax(kLeastMoment * principal.moments.maxCoeff());
   body.model_from_body.linear() = principal.axes;
-  body.model_from_body.translation() = mass->centre;
+  body.model_from_body.translation() = centre;
+  return {};
+}
+
+/// Mass, moments, frame and shape of a body.
+Status fill_body(const std::vector<Vec3d>& positions, const std::vector<Triangle>& part,
+                 const MassOptions& options, RagdollBody& body) {
+  if (Status status = fill_mass(positions, part, options, body); !status) return status;
   const Affine3d body_from_model = ragdoll::inverse_of_rigid(body.model_from_body);
   std::vector<Vec3d> points;
   points.reserve(3 * part.size());

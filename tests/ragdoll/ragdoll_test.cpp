@@ -13,6 +13,7 @@
 #include "support/machine/random.h"
 #include "support/machine/stress.h"
 #include "support/models/animated_rig.h"
+#include "support/models/random_operations.h"
 #include "support/models/rigs.h"
 #include "support/oracles/ragdoll_laws.h"
 
@@ -41,6 +42,22 @@ TEST(Ragdoll, keeps_its_laws_for_tubes_in_random_poses) {
     const Character tube = make_tube(12, 12, 2 + random.index(6));
     const ModelPose pose = random_pose(tube, random, 0.8, random.index(2) == 0 ? 1.0 : 1.2);
     expect_ragdoll_laws(tube, pose, ragdoll_of(tube, pose), random);
+  }
+}
+
+TEST(Ragdoll, keeps_its_laws_for_random_rigs_and_options) {
+  for (int seed = 0; seed < stressed(80, 50); ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const Character rig = seed % 2 == 0 ? make_animated_rig(any_animated_rig(random), random)
+                                        : random_character(random);
+    const ModelPose pose = random_pose(rig, random, 0.8, 1.0);
+    RagdollOptions options;
+    options.maximum_bodies = 1 + random.index(12);
+    options.least_share = random.index(3) == 0 ? 0.0 : random.uniform(0, 0.3);
+    const Ragdoll ragdoll = ragdoll_of(rig, pose, options);
+    EXPECT_LE(ragdoll.bodies.size(), options.maximum_bodies);
+    expect_ragdoll_laws(rig, pose, ragdoll, random);
   }
 }
 
