@@ -83,11 +83,12 @@ struct TearRequest {
   bool weight_errors = false;                   ///< Measured for the report.
   bool count_topology = false;                  ///< Per operation, for the report.
   OpenLips open = OpenLips::no;
-  FleshOption flesh;            ///< With `open`.
-  std::optional<Vec3d> facing;  ///< Of the character, for `aimed`; empty: as the rig tells.
-  bool keep_going = false;      ///< Operations that fail are reported and left out.
-  bool dry_run = false;         ///< Writes no files.
-  bool force = false;           ///< Outputs may overwrite inputs.
+  FleshOption flesh;             ///< With `open`.
+  std::optional<Vec3d> facing;   ///< Of the character, for `aimed`; empty: as the rig tells.
+  bool keep_going = false;       ///< Operations that fail are reported and left out.
+  bool dry_run = false;          ///< Writes no files.
+  bool force = false;            ///< Outputs may overwrite inputs.
+  bool without_origins = false;  ///< The file does not tell where its vertices come from.
   Verbosity verbosity = Verbosity::normal;
   std::optional<std::string> pieces;  ///< Beginning of the names of files for detached pieces.
   bool pieces_are_animated = false;

@@ -1,5 +1,7 @@
 // Meshes of an instance: posed for drawing, and in bind space with all attributes.
 
+#include <sunder/tear/torn_weights.h>
+
 #include <utility>
 
 #include "bindings/c/bytes.h"
@@ -110,9 +112,16 @@ sunder_status sunder_save_instance(sunder_scene scene, sunder_instance instance,
     const AssetParts* const parts = parts_of(found);
     const bool has_source = parts != nullptr && parts->character->loaded.source != nullptr;
     const sunder::Character& torn = found.instance->character();
-    auto bytes = has_source
-                     ? sunder::save_glb(torn, parts->character->loaded, save_options_of(options))
-                     : sunder::save_glb(torn, save_options_of(options));
+    sunder::SaveOptions save = save_options_of(options);
+    const sunder::TornModel* const model = found.instance->model();
+    if (has_source && model != nullptr &&
+        &model->source() == parts->character->loaded.character.get()) {
+      auto origins = sunder::vertex_origins(*model);
+      if (!origins) return report(origins.error());
+      save.origins = std::move(*origins);
+    }
+    auto bytes = has_source ? sunder::save_glb(torn, parts->character->loaded, save)
+                            : sunder::save_glb(torn, save);
     if (!bytes) return report(bytes.error());
     return add_bytes(std::move(*bytes), glb);
   });

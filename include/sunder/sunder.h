@@ -20,6 +20,7 @@
 #include <sunder/core/skeleton.h>
 #include <sunder/core/skin.h>
 #include <sunder/core/status.h>
+#include <sunder/core/vertex_origins.h>
 #include <sunder/operation/operation.h>
 #include <sunder/operation/pose_spec.h>
 #include <sunder/operation/weight_options.h>

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "io/gltf/cursor.h"
+#include "io/gltf/file_identity.h"
 #include "io/gltf/side_files.h"
 
 namespace sunder {
@@ -47,8 +48,9 @@ class SourceDocument {
 
   /// As in the file; where the file compresses data, as it would be without compression.
   gltf::Json json;
-  std::vector<std::byte> content;  ///< The bytes of the file.
-  bool is_glb = false;             ///< `content` is a GLB, not text.
+  std::vector<std::byte> content;  ///< The bytes of a GLB.
+  bool is_glb = false;
+  gltf::FileIdentity text_identity;  ///< Of a text, of which `content` has nothing.
   std::vector<std::vector<std::byte>>
       other_files;  ///< Content of data: URIs and external buffers; decoded data.
   /// One per entry of /buffers, in `content` or `other_files`; empty where nothing refers to it.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <string_view>
 
+#include "io/gltf_write/torn_record.h"
+
 namespace sunder::gltf {
 namespace {
 
@@ -24,6 +26,7 @@ constexpr KnownExtension kKnown[] = {{"KHR_materials_"},
                                      {"MSFT_lod"},
                                      {"EXT_mesh_gpu_instancing"},
                                      {"GODOT_single_root"},
+                                     {kTornMesh},
                                      {"KHR_animation_pointer", true},
                                      {"VRMC_"},
                                      {"VRM", true}};

@@ -142,6 +142,7 @@ class Omission {
   void visit_all_accessors(const Visit& visit) {
     visit_accessors(json_, [&](Json& reference, Use) { visit(reference); });
     visit_instance_accessors(json_, visit);
+    visit_record_accessors(json_, visit);
   }
 
   void leave_out_accessors() {

@@ -3,6 +3,7 @@
 #include <span>
 
 #include "io/gltf/source_document.h"
+#include "io/gltf_write/torn_record.h"
 
 namespace sunder::gltf {
 
@@ -56,6 +57,24 @@ void visit_instance_accessors(Json& document, const Visit& visit) {
       if (item.value().is_number_unsigned() && item.value().get<std::uint64_t>() < count)
         visit(item.value());
   }
+}
+
+/// Calls visit(reference) for the accessors of SUNDER_torn_mesh, as far as they exist.
+template <class Visit>
+void visit_record_accessors(Json& document, const Visit& visit) {
+  const std::size_t count = count_of(document, "accessors");
+  for (Json& mesh : list_in(document, "meshes"))
+    for (Json& primitive : list_in(mesh, "primitives")) {
+      if (!primitive.contains("extensions")) continue;
+      Json& extensions = primitive["extensions"];
+      if (!extensions.is_object() || !extensions.contains(kTornMesh)) continue;
+      Json& record = extensions[kTornMesh];
+      if (!record.is_object()) continue;
+      for (const char* const name : kTornMeshAccessors)
+        if (record.contains(name) && record[name].is_number_unsigned() &&
+            record[name].get<std::uint64_t>() < count)
+          visit(record[name]);
+    }
 }
 
 /// Calls visit(reference, is_sparse) for the views of an accessor.

@@ -16,6 +16,7 @@
 #include "io/gltf_write/lists.h"
 #include "io/gltf_write/mesh_writer.h"
 #include "io/gltf_write/rig_writer.h"
+#include "io/gltf_write/torn_record.h"
 
 namespace sunder::gltf {
 namespace {
@@ -173,6 +174,7 @@ class Patch {
         const SaveOptions& options)
       : draft_(draft),
         character_(character),
+        loaded_(loaded),
         before_(*loaded.character),
         source_(*loaded.source),
         options_(options),
@@ -182,6 +184,7 @@ class Patch {
   }
 
   void apply(const std::vector<std::uint32_t>& meshes) {
+    if (!meshes.empty()) remove_torn_record(draft_.json);  // of an earlier tear of another source
     append_materials(character_, options_, draft_);
     nodes_of_mesh_ = uses_of_meshes(draft_.json);
     std::map<std::uint32_t, std::vector<std::uint32_t>> meshes_of_node;
@@ -191,6 +194,7 @@ class Patch {
     correct_skins();
     ClipPatch(draft_, character_, source_, rig_.node_of_bone()).write_changed(before_);
     remove_unusable_channels();
+    if (has_origins_) add_source_of_record(loaded_, options_, draft_.json);
   }
 
  private:
@@ -271,8 +275,14 @@ class Patch {
     origin.skinned |= has_new_skin(mesh_index);
     for (const std::uint32_t primitive : origin.primitives) rewritten[primitive] = nullptr;
     if (!MeshWriter::has_triangles(mesh)) return;
-    const MeshWriter::Vertices vertices =
-        writer_.add_vertices(mesh, origin, influence_form(options_, mesh_index, most_of_source_));
+    const InfluenceForm form = influence_form(options_, mesh_index, most_of_source_);
+    const MeshWriter::Vertices vertices = writer_.add_vertices(mesh, origin, form);
+    Json record;
+    if (!options_.origins.empty())
+      record = add_origins(
+          options_.origins[mesh_index],
+          {mesh, vertices, form.maximum, before_.meshes[mesh_index].morph_targets.size()}, draft_);
+    has_origins_ |= !record.is_null();
     for (std::uint32_t submesh = 0; submesh < mesh.submeshes.size(); ++submesh) {
       const std::uint32_t indices = writer_.add_indices(mesh, submesh);
       if (indices == kNone) continue;
@@ -287,6 +297,8 @@ class Patch {
       if (mesh.submeshes[submesh].material != kNone)
         primitive["material"] = mesh.submeshes[submesh].material;
       remove_stale_extensions(primitive);
+      if (!record.is_null())
+        set_origins(record, origin, is_new ? kNone : origin.primitives[submesh], draft_, primitive);
       if (is_new) write_name(mesh.submeshes[submesh], primitive);
       if (is_new)
         additional.push_back(std::move(primitive));
@@ -341,6 +353,7 @@ class Patch {
 
   GlbDraft& draft_;
   const Character& character_;
+  const LoadedCharacter& loaded_;
   const Character& before_;
   const SourceDocument& source_;
   const SaveOptions& options_;
@@ -349,6 +362,7 @@ class Patch {
   AppendedRig rig_;
   std::vector<std::uint32_t> nodes_of_mesh_;  ///< How many nodes use each mesh of the draft.
   std::set<std::uint32_t> without_mesh_;
+  bool has_origins_ = false;  ///< Of some mesh that was written.
 };
 
 /// @param maximum  influences per vertex; 0: all.
@@ -378,6 +392,7 @@ std::vector<std::byte> glb_of(const Character& character, const LoadedCharacter&
                               const SaveOptions& options) {
   check_options(options, character.meshes.size());
   check_same_character(character, loaded, options);
+  check_origins(character, *loaded.character, options.origins);
   const SourceDocument& source = *loaded.source;
   GlbDraft draft(source);
   const Json before = draft.json;

@@ -109,8 +109,10 @@ LoadedCharacter read(std::vector<std::byte> content, std::shared_ptr<const SideF
   document->mesh_origins = std::move(meshes.origins);
   document->repaired_skins = std::move(meshes.repaired_skins);
   loaded.stored = std::move(meshes.stored);
-  if (!document->is_glb)
+  if (!document->is_glb) {
+    document->text_identity = identity_of(std::span<const std::byte>(document->content));
     document->content = {};  // The text is no longer needed; buffers are stored in other_files.
+  }
   if (const Status status = validate_character(*character); !status)
     refuse(StatusCode::internal_error, status.index(),
            "the reader produced an invalid character: %.200s", status.text().data());

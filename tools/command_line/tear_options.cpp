@@ -198,6 +198,8 @@ CLI::App* add_tear(CLI::App& app, TearRequest& request) {
                  "Report operations that cannot be applied, leave them out and go on");
   verb->add_flag("--dry-run", request.dry_run,
                  "Apply and describe the operations, but write no files");
+  verb->add_flag("--no-origins", request.without_origins,
+                 "Writes no record of where new vertices come from");
   verb->add_flag("--force", request.force, "Outputs may overwrite the model or the log");
   verb->callback([&request, verb, robot] {
     check_weight_policy(*verb, request);

@@ -1,6 +1,9 @@
 #include "tools/tear/tear_files.h"
 
+#include <sunder/tear/torn_weights.h>
+
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "tools/messages/output_file.h"
@@ -8,6 +11,7 @@
 #include "tools/messages/text_file.h"
 #include "tools/tear/flesh_materials.h"
 #include "tools/tear/open_lips_of_run.h"
+#include "tools/written_weights/place_bound.h"
 
 namespace sunder::tools {
 namespace {
@@ -48,6 +52,24 @@ std::vector<NamedFile> outputs_of(const TearRequest& request) {
   if (request.picture) outputs.push_back({"--picture", *request.picture});
   if (request.wound_mask) outputs.push_back({"--wound-mask", *request.wound_mask});
   return outputs;
+}
+
+/// What the file tells of its vertices.
+ExitCode add_origins(const TearRun& run, SaveOptions& save) {
+  // Positions that gape are not those of the source.
+  if (run.request.without_origins || run.request.open == OpenLips::baked) return ExitCode::ok;
+  const std::string place = run.request.model.string();
+  Result<std::vector<MeshOrigins>> origins = vertex_origins(run.model);
+  if (!origins) return complain(place, origins.error(), ExitCode::internal_error);
+  const Character& written = run.certified ? run.certified->character : run.model.character();
+  const auto stored = stored_weights(written, run.loaded, *origins, save);
+  if (!stored) return complain(place, stored.error(), ExitCode::internal_error);
+  const auto bound = bound_places(run.model.character(), *origins, *stored);
+  if (!bound) return complain(place, bound.error(), ExitCode::internal_error);
+  save.place_bound = *bound;
+  save.origins = std::move(*origins);
+  if (run.certified) save.certified_bound = run.certified->maximum;
+  return ExitCode::ok;
 }
 
 ExitCode check_overwriting(const TearRequest& request, const std::vector<NamedFile>& outputs) {
@@ -117,6 +139,7 @@ ExitCode write_files(const TearRun& run, const std::string& report, const std::s
   if (!written)
     return complain(request.output->string(), written.error(), ExitCode::internal_error);
   save.materials = written->materials;
+  if (const ExitCode code = add_origins(run, save); code != ExitCode::ok) return code;
   if (const Status status = save_glb(*request.output, *written->character, run.loaded, save);
       !status)
     return complain(request.output->string(), status, ExitCode::internal_error);

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <sunder/core/character.h>
+#include <sunder/core/vertex_origins.h>
 #include <sunder/weights/influences.h>
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -106,6 +108,15 @@ struct SaveOptions {
   /// Materials that Submesh::material counts after those of the source document. Only to save what
   /// was loaded.
   std::vector<AppendedMaterial> materials = {};
+  /// One per mesh of the character, for a file that explains itself (docs/torn_file.md); empty: no
+  /// record. Only to save what was loaded. Further vertices of a mesh have no origin.
+  std::vector<MeshOrigins> origins = {};
+  /// With `origins`: the weights that are written were chosen by a certificate, which bounds how
+  /// far they move a vertex in every pose, metres.
+  std::optional<double> certified_bound = {};
+  /// With `origins`: how far appended vertices leave the places between their parents in every
+  /// pose, metres, if it was certified.
+  std::optional<double> place_bound = {};
 };
 
 /// The influences of a mesh that save_glb() writes.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <sunder/core/vertex_origins.h>
 #include <sunder/tear/torn_model.h>
 
 #include <array>
@@ -33,6 +34,13 @@ struct ParentBlends {
 /// O(vertices appended), allocates. Reentrant while the model is not changed.
 [[nodiscard]] SUNDER_API Result<ParentBlends> parent_blends(const TornModel& model,
                                                             std::uint32_t mesh);
+
+/// The origins of all vertices that operations appended, and of the source triangles of which they
+/// removed a part, for files: one entry per mesh. Indices are those of model.source(), which
+/// compact() changes.
+/// @return limit_exceeded: out of memory. O(vertices appended + triangles), allocates. Reentrant
+/// while the model is not changed.
+[[nodiscard]] SUNDER_API Result<std::vector<MeshOrigins>> vertex_origins(const TornModel& model);
 
 /// The distances, over some poses, between torn points and the places on the untorn surface where
 /// they were created.

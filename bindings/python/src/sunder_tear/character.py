@@ -13,6 +13,7 @@ from .abi import abi
 from .arrays import copy, matrices
 from .character_arrays import CharacterStructs
 from .errors import SunderError
+from .picture import colours_of, draw, png
 
 _INTERPOLATIONS = ('linear', 'step', 'cubic')
 _TARGETS = ('translation', 'rotation', 'scale', 'morph_weights')
@@ -51,6 +52,10 @@ class Mesh:
         rows = np.repeat(np.arange(len(self.positions)), np.diff(self.first_influence))
         dense[rows, self.influence_slot] = self.influence_weight
         return dense
+
+    def _repr_png_(self) -> bytes:
+        """The mesh in bind space, as notebooks show it."""
+        return png(draw([(self.positions, self.triangles, colours_of(self))]))
 
 
 def mesh_of(raw) -> Mesh:
@@ -228,6 +233,13 @@ class Character:
 
     def clip_index(self, clip: Union[str, int]) -> int:
         return self.find_clip(clip) if isinstance(clip, str) else clip
+
+    def _repr_png_(self) -> bytes:
+        """The character at rest, as notebooks show it."""
+        from .scene import Scene
+        instance = Scene(threads=1).spawn(self)
+        instance.scene.update()
+        return instance._repr_png_()
 
     def save(self, influences: Optional[int] = 0) -> bytes:
         """A GLB. influences: most per vertex, 4 or 8; 0: as many as the source has; None: all."""

@@ -12,6 +12,7 @@ from .abi import abi
 from .arrays import copy, doubles, matrices, numbers, pointer_to, view
 from .character import Asset, Character, Mesh, mesh_of
 from .errors import StaleView, SunderError
+from .picture import colours_of, draw, png
 from .piece import Piece
 
 _LAYERS = {'nearest': 'LAYERS_NEAREST', 'all': 'LAYERS_ALL'}
@@ -344,6 +345,11 @@ class Instance:
         with self.borrow(mesh) as posed:
             arrays = [None if array is None else array.copy() for array in (posed.positions, posed.normals, posed.tangents)]
             return PosedMesh(*arrays, posed.triangles, posed.epoch)
+
+    def _repr_png_(self) -> bytes:
+        """The instance as it stands, as notebooks show it."""
+        meshes = [self.mesh(m) for m in range(self.asset.character.mesh_count)]
+        return png(draw([(self.posed(m).positions, mesh.triangles, colours_of(mesh)) for m, mesh in enumerate(meshes)]))
 
     @contextlib.contextmanager
     def borrow(self, mesh: int = 0) -> Iterator[PosedMesh]:

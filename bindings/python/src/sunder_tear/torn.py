@@ -19,6 +19,9 @@ class Torn:
     def character(self) -> Character:
         return Character.load(self.glb)
 
+    def _repr_png_(self) -> bytes:
+        return self.character._repr_png_()
+
 
 def tear(character: Character, blades, *, clip: Union[str, int, None] = None, seconds: float = 0.0, influences: Optional[int] = 0,
          **options) -> Torn:
