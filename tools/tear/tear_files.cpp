@@ -6,6 +6,7 @@
 #include "tools/messages/output_file.h"
 #include "tools/messages/overwriting.h"
 #include "tools/messages/text_file.h"
+#include "tools/model/model_output.h"
 #include "tools/tear/flesh_materials.h"
 #include "tools/tear/open_lips_of_run.h"
 
@@ -76,8 +77,7 @@ ExitCode check_piece_files(const TearRun& run) {
   const TearRequest& request = run.request;
   if (request.dry_run || !run.pieces) return ExitCode::ok;
   std::vector<NamedFile> outputs = outputs_of(request);
-  for (const std::string& file : run.pieces->files(*request.pieces))
-    outputs.push_back({"--pieces", file});
+  for (const std::string& file : run.pieces->files()) outputs.push_back({"--pieces", file});
   return check_overwriting(request, outputs);
 }
 
@@ -90,7 +90,7 @@ ExitCode write_pieces(TearRun& run) {
   save.materials = flesh->appended();
   const auto with_flesh = [&](const DetachedPiece& piece) { return flesh->with_flesh(piece); };
   const ExitCode code =
-      run.pieces->write(*request.pieces, run.loaded, save, with_flesh, run.piece_files);
+      run.pieces->write(run.loaded, save, with_flesh, run.messages, run.piece_files);
   if (code == ExitCode::ok && run.piece_files.empty())
     run.messages.warn(
         "--pieces: no piece was written; --sever takes off what it severs, and so does {\"op\": "
@@ -117,7 +117,8 @@ ExitCode write_files(const TearRun& run, const std::string& report, const std::s
   if (!written)
     return complain(request.output->string(), written.error(), ExitCode::internal_error);
   save.materials = written->materials;
-  if (const Status status = save_glb(*request.output, *written->character, run.loaded, save);
+  if (const Status status =
+          write_changed(*request.output, *written->character, run.loaded, save, run.messages);
       !status)
     return complain(request.output->string(), status, ExitCode::internal_error);
   if (const Status status = log_file.commit(); !status)
