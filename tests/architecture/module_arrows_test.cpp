@@ -331,8 +331,7 @@ TEST(Architecture, the_header_of_all_modules_includes_every_public_header) {
         !name.starts_with("sunder/coupled_refit/") && !name.starts_with("sunder/robot/") &&
         !name.starts_with("sunder/binding/") && name != "sunder/io/robot_file.h" &&
         name != "sunder/core/memory_operators.h" && name != "sunder/io/trajectory_file.h" &&
-        name != "sunder/io/usd_file.h" &&
-        name != "sunder/particles/fitted_colliders.h")
+        name != "sunder/io/usd_file.h" && name != "sunder/particles/fitted_colliders.h")
       installed.insert(name);  // what a frame needs; pipelines include their own
   EXPECT_EQ(installed.erase("sunder/sunder.h"), 1u);
   EXPECT_EQ(installed.erase("sunder_c.h"), 1u);
