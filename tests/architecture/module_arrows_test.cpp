@@ -91,6 +91,7 @@ const std::map<std::string, std::set<std::string>> kThirdPartyOfRoom = {
 
 /// Third parties that a single file may include.
 const std::map<std::string, std::set<std::string>> kThirdPartyOfFile = {
+    {"bindings/godot/interface_check.cpp", {"gdextension_interface.h"}},
     {"tear/bodies/qhull.cpp", {"libqhull_r"}},
     {"weights/coupled_refit/ceres_refit.cpp", {"ceres"}},
 };
