@@ -50,7 +50,7 @@ class LayerWriter {
     write_skeleton(path, skeleton, clips);
     write_clips(clips);
     materials.write(text_);
-    const MeshesWriter meshes(character_, joints_, materials, shapes_, path + "/" + skeleton);
+    const MeshesWriter meshes(joints_, materials, shapes_, path + "/" + skeleton);
     for (std::uint32_t m = 0; m < character_.meshes.size(); ++m)
       if (const Mesh& mesh = character_.meshes[m]; gltf::MeshWriter::has_triangles(mesh))
         meshes.write(text_, mesh, path + "/" + children_.add(mesh.name, "Mesh"),

@@ -1,9 +1,12 @@
 #include "io/usd_write/materials.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 #include <utility>
+#include <zlib.h>
 
 #include "io/gltf/refusal.h"
 #include "io/gltf_write/mesh_writer.h"
@@ -24,6 +27,15 @@ std::string rgba(const Vec4f& colour) { return tuple({colour.data(), 4}); }
 const char* wrap_name(BaseColour::Wrap wrap) {
   constexpr const char* kNames[] = {"\"repeat\"", "\"clamp\"", "\"mirror\""};
   return kNames[static_cast<std::size_t>(wrap)];
+}
+
+/// Of an image, in hexadecimal digits: a part of its name, so that a file of another model that has
+/// the name is very likely the same image.
+std::string checksum(const std::vector<std::byte>& bytes) {
+  const uLong sum = crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size());
+  std::array<char, 9> digits;
+  std::snprintf(digits.data(), digits.size(), "%08lx", sum);
+  return digits.data();
 }
 
 /// "st", "st1" …, as meshes name their texture coordinates.
@@ -56,9 +68,9 @@ Materials::Materials(const Character& character, const SourceDocument* source,
     const char* const ending =
         type == "image/png" ? ".png" : (type == "image/jpeg" ? ".jpg" : nullptr);
     if (ending == nullptr) ++left_out_;
-    file_of_.push_back(ending == nullptr
-                           ? std::string()
-                           : textures_folder + "/image_" + std::to_string(i) + ending);
+    file_of_.push_back(ending == nullptr ? std::string()
+                                         : textures_folder + "/image_" + std::to_string(i) + "_" +
+                                               checksum(images_[i].bytes) + ending);
   }
   is_image_written_.assign(images_.size(), false);
 }

@@ -18,13 +18,9 @@ class MeshesWriter {
  public:
   /// @param shapes     names of the morph weights, as blend_shape_names().
   /// @param skeleton   path of the Skeleton.
-  MeshesWriter(const Character& character, const Joints& joints, const Materials& materials,
+  MeshesWriter(const Joints& joints, const Materials& materials,
                const std::vector<std::string>& shapes, std::string skeleton)
-      : character_(character),
-        joints_(joints),
-        materials_(materials),
-        shapes_(shapes),
-        skeleton_(std::move(skeleton)) {}
+      : joints_(joints), materials_(materials), shapes_(shapes), skeleton_(std::move(skeleton)) {}
 
   /// @param path                of the prim; its last name is an identifier.
   /// @param maximum_influences  per vertex; 0: all.
@@ -37,7 +33,6 @@ class MeshesWriter {
   void write_influences(UsdText& text, const Mesh& mesh, std::uint32_t maximum) const;
   void write_binding(UsdText& text, const std::vector<std::uint32_t>& joints) const;
 
-  const Character& character_;
   const Joints& joints_;
   const Materials& materials_;
   const std::vector<std::string>& shapes_;

@@ -140,7 +140,9 @@ std::vector<double> read_doubles(const std::filesystem::path& file) {
 
 class UsdFile {
  public:
-  UsdFile(const Character& character, const LoadedCharacter& loaded) : character_(character) {
+  /// @param extension  ".usda" or ".usdz".
+  UsdFile(const Character& character, const LoadedCharacter& loaded, const std::string& extension)
+      : character_(character), file_(folder_.path() / ("torn" + extension)) {
     const auto saved = save_usd(file_, character, loaded, {kAllInfluences});
     EXPECT_TRUE(saved) << saved.error().text();
   }
@@ -190,8 +192,7 @@ class UsdFile {
 
   const Character& character_;
   const test::TemporaryFolder folder_;
-  const std::filesystem::path file_ = folder_.path() / "torn.usda",
-                              points_ = folder_.path() / "points";
+  const std::filesystem::path file_, points_ = folder_.path() / "points";
 };
 
 /// three's loader knows none.
@@ -218,7 +219,7 @@ std::vector<const Clip*> some_clips(const Character& character) {
 
 void expect_same_in_motion(Way way, const Character& character, const LoadedCharacter& loaded) {
   const Character halves = with_scales_as_halves(character);
-  const UsdFile file(halves, loaded);
+  const UsdFile file(halves, loaded, way == Way::spec ? ".usda" : ".usdz");
   const auto& weights = halves.rest_morph_weights;
   const bool has_weights =
       std::any_of(weights.begin(), weights.end(), [](float weight) { return weight != 0; });

@@ -18,13 +18,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "io/internal/base_colours.h"
 #include "support/machine/temporary_folder.h"
+#include "support/models/gltf_builder.h"
 #include "support/models/rich_mesh.h"
 #include "support/models/rigs.h"
+#include "tools/textured_squares.h"
 
 namespace sunder {
 namespace {
 
+using command_test::OrderedJson;
 using test::Random;
 using testing::AllOf;
 using testing::ElementsAre;
@@ -244,6 +248,99 @@ TEST(UsdFile, faults_are_named) {
   const auto nowhere = save_usd(folder.path() / "none" / "a.usda", character);
   EXPECT_EQ(nowhere.error().code(), StatusCode::file_unreadable);
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+/// A square with a material of everything that glTF knows.
+test::GltfBuilder everything() {
+  test::GltfBuilder builder;
+  const OrderedJson place = {
+      {"KHR_texture_transform",
+       {{"offset", {0.3, -0.2}}, {"rotation", 0.7}, {"scale", {2.0, -0.5}}}}};
+  const std::size_t first = command_test::add_texture(builder, command_test::Texel{1, 2, 3, 255}),
+                    second = command_test::add_texture(builder, command_test::Texel{4, 5, 6, 255});
+  OrderedJson material = {{"name", "Skin & bone"},
+                          {"alphaMode", "MASK"},
+                          {"alphaCutoff", 0.25},
+                          {"doubleSided", true},
+                          {"emissiveFactor", {0.1, 0.2, 0.3}}};
+  material["pbrMetallicRoughness"] = {
+      {"baseColorFactor", {0.5, 0.25, 1.0, 0.75}},
+      {"metallicFactor", 0.125},
+      {"roughnessFactor", 0.375},
+      {"baseColorTexture", {{"index", first}, {"extensions", place}}},
+      {"metallicRoughnessTexture", {{"index", second}}}};
+  material["normalTexture"] = {{"index", second}, {"scale", 0.5}};
+  material["occlusionTexture"] = {{"index", second}, {"strength", 0.75}};
+  builder.json["extensionsUsed"] = OrderedJson::array({"KHR_texture_transform"});
+  command_test::add_square(builder, 0, 0, material);
+  return builder;
+}
+
+/// The block of a prim of a type and name.
+std::string prim(const std::string& text, const std::string& head) {
+  const std::size_t begin = text.find("def " + head);
+  return begin == std::string::npos ? std::string()
+                                    : text.substr(begin, text.find("}\n", begin) - begin);
+}
+
+TEST(UsdFile, materials_become_preview_surfaces) {
+  const auto loaded = everything().load();
+  ASSERT_TRUE(loaded) << loaded.error().text();
+  const auto layer = usd_layer(*loaded->character, *loaded, {}, "pictures");
+  ASSERT_TRUE(layer) << layer.error().text();
+  const std::string& text = layer->text;
+  EXPECT_EQ(layer->textures.size(), 2u);
+  for (const UsdLayer::Texture& texture : layer->textures)
+    EXPECT_THAT(text, HasSubstr("@./" + texture.path + "@"));
+  EXPECT_THAT(
+      text,
+      AllOf(HasSubstr("def Material \"Skin___bone\""), HasSubstr("displayName = \"Skin & bone\""),
+            HasSubstr("rel material:binding = <"), HasSubstr("uniform bool doubleSided = 1")));
+  const std::string surface = prim(text, "Shader \"Surface\"");
+  EXPECT_THAT(
+      surface,
+      AllOf(HasSubstr("/BaseColour.outputs:rgb>"), HasSubstr("/BaseColour.outputs:a>"),
+            HasSubstr("inputs:opacityThreshold = 0.25"), HasSubstr("inputs:roughness.connect = <"),
+            HasSubstr("/MetallicRoughness.outputs:g>"), HasSubstr("/MetallicRoughness.outputs:b>"),
+            HasSubstr("/Normal.outputs:rgb>"), HasSubstr("/Occlusion.outputs:r>"),
+            HasSubstr("inputs:emissiveColor = (0.1, 0.2, 0.3)")));
+  EXPECT_THAT(prim(text, "Shader \"BaseColour\""),
+              AllOf(HasSubstr("inputs:scale = (0.5, 0.25, 1, 0.75)"), HasSubstr("\"sRGB\"")));
+  EXPECT_THAT(prim(text, "Shader \"MetallicRoughness\""),
+              AllOf(HasSubstr("inputs:scale = (1, 0.375, 0.125, 1)"), HasSubstr("\"raw\"")));
+  EXPECT_THAT(prim(text, "Shader \"Normal\""),
+              AllOf(HasSubstr("inputs:scale = (1, 1, 2, 1)"),
+                    HasSubstr("inputs:bias = (-0.5, -0.5, -1, 0)")));
+  EXPECT_THAT(prim(text, "Shader \"Occlusion\""),
+              AllOf(HasSubstr("inputs:scale = (0.75, 0.75, 0.75, 1)"),
+                    HasSubstr("inputs:bias = (0.25, 0.25, 0.25, 0)")));
+}
+
+TEST(UsdFile, moved_textures_lie_where_gltf_puts_them) {
+  const auto loaded = everything().load();
+  ASSERT_TRUE(loaded) << loaded.error().text();
+  const auto colours = read_base_colours(*loaded->source, kMostImageBytes);
+  ASSERT_TRUE(colours);
+  const std::string moved =
+      prim(usd_layer(*loaded->character, *loaded)->text, "Shader \"BaseColourCoordinates\"");
+  const auto value = [&](const char* declaration) {
+    return numbers_of<double>(value_of(moved, declaration));
+  };
+  const auto scale = value("float2 inputs:scale"), shift = value("float2 inputs:translation");
+  ASSERT_EQ(scale.size() + shift.size(), 4u) << moved;
+  const double angle = value("float inputs:rotation").at(0) * 3.14159265358979 / 180;
+  Random random(4);
+  for (int i = 0; i < 20; ++i) {
+    const float u = static_cast<float>(random.uniform(-2, 2)),
+                v = static_cast<float>(random.uniform(-2, 2));
+    const Vec2f image = colours->materials[0].image_from_uv * Vec3f(u, v, 1);
+    // UsdTransform2d: scaled, then turned counter-clockwise, then moved.
+    const double s = scale[0] * static_cast<double>(u), t = scale[1] * (1 - static_cast<double>(v));
+    EXPECT_NEAR(std::cos(angle) * s - std::sin(angle) * t + shift[0],
+                static_cast<double>(image.x()), 1e-5);
+    EXPECT_NEAR(std::sin(angle) * s + std::cos(angle) * t + shift[1],
+                1 - static_cast<double>(image.y()), 1e-5);
+  }
 }
 
 std::uint32_t number_at(const std::vector<std::byte>& bytes, std::size_t at, std::size_t size) {

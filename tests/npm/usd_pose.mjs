@@ -1,9 +1,9 @@
-// Poses the skinned meshes of a USD text (.usda), in two ways, neither of which is ours:
+// Poses the skinned meshes of a USD text (.usda) or package (.usdz), in two ways, neither of which is ours:
 //
 //   node usd_pose.mjs spec  <in.usda> <out> <clip> <seconds...>
 //     reads the text by three's parser and applies what UsdSkel says, in double: every influence, blend shapes, joints that
 //     an animation leaves out. Writes the points of each mesh.
-//   node usd_pose.mjs three <in.usda> <out> <clip> <seconds...>
+//   node usd_pose.mjs three <in.usda|in.usdz> <out> <clip> <seconds...>
 //     three's USDLoader and AnimationMixer. Writes the corners of each mesh, by its subsets. At most four influences per
 //     vertex, and no blend shapes: it knows no others.
 //
@@ -20,7 +20,8 @@ const { USDLoader } = await import('three/addons/loaders/USDLoader.js');
 const { USDAParser } = await import('three/addons/loaders/usd/USDAParser.js');
 
 const [way, input, output, clip, ...moments] = process.argv.slice(2);
-const text = readFileSync(input, 'utf8');
+const bytes = readFileSync(input);
+const text = input.endsWith('.usda') ? bytes.toString() : undefined;
 const numbers = [];
 
 // ---- By the text.
@@ -145,7 +146,7 @@ function poseBySpec() {
 // ---- By three's loader.
 
 function poseByThree() {
-  const root = new USDLoader().parse(text, '');
+  const root = new USDLoader().parse(text ?? bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength), '');
   const mixer = new AnimationMixer(root);
   if (clip !== '-') {
     const action = mixer.clipAction(root.animations.find((one) => one.name === clip)).setLoop(LoopOnce).play();

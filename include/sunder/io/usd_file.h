@@ -12,7 +12,7 @@ namespace sunder {
 /// A character as a text of USD (.usda), and the images that its materials name.
 struct UsdLayer {
   struct Texture {
-    std::string path;  ///< Relative to the text: "torn_textures/image_0.png".
+    std::string path;  ///< Relative to the text: "torn_textures/image_0_1b2c3d4e.png".
     std::vector<std::byte> bytes;
   };
   std::string text;
