@@ -1,9 +1,11 @@
 #include "io/usd_write/sample_times.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
+#include "io/gltf/refusal.h"
 #include "skinning/internal/sample_channel.h"
 
 namespace sunder::usd {
@@ -36,11 +38,24 @@ std::vector<float> values_at(const Channel& channel, double seconds) {
   return {vector.x(), vector.y(), vector.z()};
 }
 
+/// How far samples may be off: 1e-4 of the range of a channel's values, 1e-4 rad of a rotation.
+float tolerance_of(const Channel& channel) {
+  if (channel.target == ChannelTarget::rotation) return 5e-5f;  // half an angle
+  float range = 0;
+  const std::vector<float> first = values_at(channel, 0);
+  for (const float time : channel.times) {
+    const std::vector<float> values = values_at(channel, static_cast<double>(time));
+    for (std::size_t i = 0; i < values.size(); ++i)
+      range = std::max(range, std::abs(values[i] - first[i]));
+  }
+  return 1e-4f * range;
+}
+
 /// Adds times within the segments of a cubic spline.
 class SplineTimes {
  public:
   SplineTimes(const Channel& channel, std::vector<double>& times)
-      : channel_(channel), times_(times), tolerance_(tolerance()) {
+      : channel_(channel), times_(times), tolerance_(tolerance_of(channel)) {
     for (std::size_t key = 0; key + 1 < channel.times.size(); ++key)
       divide(static_cast<double>(channel.times[key]), static_cast<double>(channel.times[key + 1]),
              0);
@@ -48,18 +63,6 @@ class SplineTimes {
 
  private:
   static constexpr int kMostHalvings = 6;
-
-  [[nodiscard]] float tolerance() const {
-    if (channel_.target == ChannelTarget::rotation) return 5e-5f;  // half an angle
-    float range = 0;
-    const std::vector<float> first = values_at(channel_, 0);
-    for (const float time : channel_.times) {
-      const std::vector<float> values = values_at(channel_, static_cast<double>(time));
-      for (std::size_t i = 0; i < values.size(); ++i)
-        range = std::max(range, std::abs(values[i] - first[i]));
-    }
-    return 1e-4f * range;
-  }
 
   [[nodiscard]] bool is_straight(double from, double to) const {
     const std::vector<float> first = values_at(channel_, from), last = values_at(channel_, to);
@@ -95,6 +98,86 @@ void add_times_before_steps(const Channel& channel, std::vector<double>& times) 
   }
 }
 
+/// Leaves out times between which all channels are straight within their tolerance. O(n log n) for
+/// n values.
+class ThinnedTimes {
+ public:
+  ThinnedTimes(std::span<const Channel* const> channels, const std::vector<double>& times)
+      : times_(times), rows_(times.size()) {
+    for (const Channel* const channel : channels) add(*channel, times);
+    is_kept_.assign(times.size(), false);
+    is_kept_.front() = is_kept_.back() = true;
+    divide(0, times.size() - 1);
+  }
+
+  [[nodiscard]] bool is_kept(std::size_t time) const { return is_kept_[time]; }
+
+ private:
+  void add(const Channel& channel, const std::vector<double>& times) {
+    const float tolerance = tolerance_of(channel);
+    std::vector<float> before;
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      std::vector<float> values = values_at(channel, times[i]);
+      // The same rotation as before has the sign of before.
+      float agreement = 1;
+      if (channel.target == ChannelTarget::rotation && i > 0)
+        agreement = std::inner_product(values.begin(), values.end(), before.begin(), 0.0f);
+      if (agreement < 0)
+        for (float& value : values) value = -value;
+      rows_[i].insert(rows_[i].end(), values.begin(), values.end());
+      before = std::move(values);
+    }
+    tolerances_.insert(tolerances_.end(), before.size(), tolerance);
+  }
+
+  [[nodiscard]] bool is_straight(std::size_t from, std::size_t to) const {
+    for (std::size_t i = from + 1; i < to; ++i) {
+      const auto share =
+          static_cast<float>((times_[i] - times_[from]) / (times_[to] - times_[from]));
+      for (std::size_t c = 0; c < tolerances_.size(); ++c) {
+        const float between = rows_[from][c] + share * (rows_[to][c] - rows_[from][c]);
+        if (std::abs(between - rows_[i][c]) > tolerances_[c]) return false;
+      }
+    }
+    return true;
+  }
+
+  void divide(std::size_t from, std::size_t to) {
+    if (to - from < 2 || is_straight(from, to)) return;
+    const std::size_t middle = from + (to - from) / 2;
+    is_kept_[middle] = true;
+    divide(from, middle);
+    divide(middle, to);
+  }
+
+  const std::vector<double>& times_;
+  std::vector<std::vector<float>> rows_;  ///< The values of all channels, per time.
+  std::vector<float> tolerances_;         ///< One per value.
+  std::vector<bool> is_kept_;
+};
+
+/// Bones with keys at times of their own would give each of them a sample at every key of all.
+/// Thins out what would be much.
+/// @throws gltf::Refusal  for more than memory should hold.
+void thin_out(std::span<const Channel* const> channels, std::vector<double>& seconds) {
+  constexpr std::size_t kFew = 100'000, kMost = std::size_t{1} << 24;
+  std::size_t densest = 0;
+  for (const Channel* const channel : channels) densest = std::max(densest, channel->times.size());
+  const std::size_t samples = seconds.size() * channels.size();
+  if (samples <= kFew) return;
+  if (samples > kMost)
+    gltf::refuse(StatusCode::limit_exceeded, kNone,
+                 "a clip has %zu channels and keys at %zu times; USD would have %zu samples, more "
+                 "than %zu",
+                 channels.size(), seconds.size(), samples, kMost);
+  if (seconds.size() <= 2 * densest) return;
+  const ThinnedTimes thinned(channels, seconds);
+  std::vector<double> kept;
+  for (std::size_t i = 0; i < seconds.size(); ++i)
+    if (thinned.is_kept(i)) kept.push_back(seconds[i]);
+  seconds = std::move(kept);
+}
+
 }  // namespace
 
 double time_code(double seconds, double codes_per_second) {
@@ -123,6 +206,8 @@ std::vector<SampleTime> sample_times(std::span<const Channel* const> channels,
   }
   if (seconds.empty()) return {{}};
   std::sort(seconds.begin(), seconds.end());
+  seconds.erase(std::unique(seconds.begin(), seconds.end()), seconds.end());
+  thin_out(channels, seconds);
   std::vector<SampleTime> times;
   for (const double time : seconds) {
     const double code = time_code(time, codes_per_second);

@@ -22,7 +22,10 @@ struct SampleTime {
 /// Times such that linear interpolation between the samples of them all is the channels' own: the
 /// keys; for steps also a moment of at most 1e-4 s before each; for cubic splines more, until what
 /// lies between is off by at most 1e-4 of the values' range (rotations: 1e-4 rad), or 64 for a key.
-/// Ascending; {0} without a channel.
+/// Where bones have keys at times of their own, such that there would be more than 100,000 samples
+/// and twice as many times as one of them has keys, times are left out as long as nothing is off by
+/// more than that.
+/// Ascending; {0} without a channel. @throws gltf::Refusal  above 2^24 samples.
 [[nodiscard]] std::vector<SampleTime> sample_times(std::span<const Channel* const> channels,
                                                    double codes_per_second);
 

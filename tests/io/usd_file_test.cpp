@@ -225,6 +225,65 @@ TEST(UsdFile, time_codes_are_whole_where_the_keys_allow_it) {
                           HasSubstr("\n                299: [("), Not(HasSubstr("299.0"))));
 }
 
+TEST(UsdFile, keys_at_times_of_their_own_make_no_flood_of_samples) {
+  Character character = test::make_tube(4, 5, 80);
+  Random random(6);
+  Clip clip;
+  clip.name = "Wave";
+  for (std::uint32_t bone = 0; bone < 80; ++bone) {
+    Channel channel{ChannelTarget::rotation, bone, 4, Interpolation::linear, {}, {}};
+    for (int key = 0; key < 300; ++key) {
+      const double time = (key + random.uniform(0, 0.9)) / 60;
+      const double angle = 0.3 * std::sin(2 * time + bone);
+      channel.times.push_back(static_cast<float>(time));
+      for (const double value : {std::sin(angle / 2), 0.0, 0.0, std::cos(angle / 2)})
+        channel.values.push_back(static_cast<float>(value));
+    }
+    clip.duration = std::max(clip.duration, channel.times.back());
+    clip.channels.push_back(std::move(channel));
+  }
+  character.clips = {clip};
+  const std::string text = text_of(character);
+  EXPECT_LT(text.size(), 10'000'000u) << "of all keys there would be 24,000 x 80 rotations";
+  const std::size_t begin = text.find("quatf[] rotations.timeSamples");
+  const std::string samples = text.substr(begin, text.find('}', begin) - begin);
+  const auto rate = numbers_of<double>(value_of("x" + text, "timeCodesPerSecond")).at(0);
+  std::size_t count = 0;
+  double largest = 0;
+  for (std::size_t line = samples.find('\n'); line != std::string::npos;
+       line = samples.find('\n', line + 1)) {
+    const auto numbers =
+        numbers_of<double>(samples.substr(line + 1, samples.find('\n', line + 1) - line - 1));
+    if (numbers.size() != 321) continue;
+    ++count;
+    const double seconds = numbers[0] / rate;
+    if (seconds < 1.0 / 60 || seconds > 299.0 / 60) continue;  // a first or last key is held there
+    for (std::uint32_t bone = 0; bone < 80; ++bone) {
+      const double angle = 2 * std::atan2(numbers[4 * bone + 2], numbers[4 * bone + 1]);
+      largest = std::max(largest, std::abs(angle - 0.3 * std::sin(2 * seconds + bone)));
+    }
+  }
+  EXPECT_GT(count, 50u);
+  EXPECT_LT(count, 3000u);
+  EXPECT_LT(largest, 1e-3) << "the keys themselves are 1/60 s apart";
+
+  // A clip that no file should hold.
+  for (Channel& channel : character.clips[0].channels) {
+    channel.times.clear();
+    channel.values.clear();
+    for (int key = 0; key < 3000; ++key) {
+      channel.times.push_back(static_cast<float>((key + random.uniform(0, 0.9)) / 60));
+      for (const float value : {0.0f, 0.0f, 0.0f, 1.0f}) channel.values.push_back(value);
+    }
+  }
+  character.clips[0].duration = 50;
+  for (const Channel& channel : character.clips[0].channels)
+    character.clips[0].duration = std::max(character.clips[0].duration, channel.times.back());
+  const auto refused = usd_layer(character, {});
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code(), StatusCode::limit_exceeded) << refused.error().text();
+}
+
 TEST(UsdFile, faults_are_named) {
   const Character character = test::make_tube(4, 5, 2);
   SaveOptions options;
