@@ -40,45 +40,74 @@ struct Method {
   Variant (*call)(TearableSkeleton& node, const Arguments& arguments);
 };
 
+/// Those of tears over several frames.
+std::vector<Method> methods_of_strokes() {
+  return {{"begin_stroke",
+           {{"base", Type::vector3},
+            {"tip", Type::vector3},
+            {"width", Type::real},
+            {"wall_depth", Type::real}},
+           Type::boolean,
+           [](TearableSkeleton& node, const Arguments& a) {
+             return Variant(
+                 node.begin_stroke(a[0].vector3(), a[1].vector3(), a[2].real(), a[3].real()));
+           }},
+          {"extend_stroke",
+           {{"base", Type::vector3}, {"tip", Type::vector3}, {"seconds", Type::real}},
+           Type::boolean,
+           [](TearableSkeleton& node, const Arguments& a) {
+             return Variant(node.extend_stroke(a[0].vector3(), a[1].vector3(), a[2].real()));
+           }},
+          {"end_stroke", {}, Type::boolean, [](TearableSkeleton& node, const Arguments&) {
+             return Variant(node.end_stroke());
+           }}};
+}
+
+/// The methods of the node, in the memory that the host refers to.
 const std::vector<Method>& methods() {
-  static const std::vector<Method> all = {
-      {"attach",
-       {{"mesh_instance", Type::object}},
-       Type::boolean,
-       [](TearableSkeleton& node, const Arguments& a) { return Variant(node.attach(a[0])); }},
-      {"tear",
-       {{"bases", Type::packed_vector3},
-        {"tips", Type::packed_vector3},
-        {"width", Type::real},
-        {"wall_depth", Type::real}},
-       Type::boolean,
-       [](TearableSkeleton& node, const Arguments& a) {
-         return Variant(node.tear(a[0], a[1], a[2].real(), a[3].real()));
-       }},
-      {"cut",
-       {{"point", Type::vector3}, {"normal", Type::vector3}, {"caps", Type::boolean}},
-       Type::boolean,
-       [](TearableSkeleton& node, const Arguments& a) {
-         return Variant(node.cut(a[0].vector3(), a[1].vector3(), a[2].boolean()));
-       }},
-      {"undo",
-       {},
-       Type::boolean,
-       [](TearableSkeleton& node, const Arguments&) { return Variant(node.undo()); }},
-      {"set_wound_material",
-       {{"material", Type::object}},
-       Type::nil,
-       [](TearableSkeleton& node, const Arguments& a) {
-         node.set_wound_material(a[0]);
-         return Variant();
-       }},
-      {"get_log",
-       {},
-       Type::string,
-       [](TearableSkeleton& node, const Arguments&) { return Variant(node.get_log().c_str()); }},
-      {"get_error", {}, Type::string, [](TearableSkeleton& node, const Arguments&) {
-         return Variant(node.get_error().c_str());
-       }}};
+  static const std::vector<Method> all = [] {
+    std::vector<Method> list = {
+        {"attach",
+         {{"mesh_instance", Type::object}},
+         Type::boolean,
+         [](TearableSkeleton& node, const Arguments& a) { return Variant(node.attach(a[0])); }},
+        {"tear",
+         {{"bases", Type::packed_vector3},
+          {"tips", Type::packed_vector3},
+          {"width", Type::real},
+          {"wall_depth", Type::real}},
+         Type::boolean,
+         [](TearableSkeleton& node, const Arguments& a) {
+           return Variant(node.tear(a[0], a[1], a[2].real(), a[3].real()));
+         }},
+        {"cut",
+         {{"point", Type::vector3}, {"normal", Type::vector3}, {"caps", Type::boolean}},
+         Type::boolean,
+         [](TearableSkeleton& node, const Arguments& a) {
+           return Variant(node.cut(a[0].vector3(), a[1].vector3(), a[2].boolean()));
+         }},
+        {"undo",
+         {},
+         Type::boolean,
+         [](TearableSkeleton& node, const Arguments&) { return Variant(node.undo()); }},
+        {"set_wound_material",
+         {{"material", Type::object}},
+         Type::nil,
+         [](TearableSkeleton& node, const Arguments& a) {
+           node.set_wound_material(a[0]);
+           return Variant();
+         }},
+        {"get_log",
+         {},
+         Type::string,
+         [](TearableSkeleton& node, const Arguments&) { return Variant(node.get_log().c_str()); }},
+        {"get_error", {}, Type::string, [](TearableSkeleton& node, const Arguments&) {
+           return Variant(node.get_error().c_str());
+         }}};
+    const std::vector<Method> strokes = methods_of_strokes();
+    list.insert(list.end(), strokes.begin(), strokes.end());
+    return list;
+  }();
   return all;
 }
 

@@ -23,6 +23,13 @@ void set(double (&to)[3], const Vector3& from) {
   to[2] = static_cast<double>(from.z);
 }
 
+sunder_tear_options gap(double width, double wall_depth) {
+  sunder_tear_options options = sunder_default_tear_options();
+  options.width = width;
+  options.wall_depth = wall_depth;
+  return options;
+}
+
 }  // namespace
 
 bool TearableSkeleton::fail(std::string text) {
@@ -41,6 +48,7 @@ void TearableSkeleton::release() {
   if (character_ != 0) sunder_destroy_character(character_);
   scene_ = asset_ = character_ = 0;
   instance_ = 0;
+  undos_.clear();
   mesh_instance_ = skeleton_node_ = source_mesh_ = Variant();
 }
 
@@ -111,11 +119,28 @@ bool TearableSkeleton::tear(const Variant& bases, const Variant& tips, double wi
                 std::to_string(to.size()) + " tips");
   std::vector<sunder_blade> blades;
   for (std::size_t i = 0; i < from.size(); ++i) blades.push_back(blade(from[i], to[i]));
-  sunder_tear_options options = sunder_default_tear_options();
-  options.width = width;
-  options.wall_depth = wall_depth;
+  const sunder_tear_options options = gap(width, wall_depth);
   return check(sunder_submit_tear(scene_, instance_, blades.data(),
                                   static_cast<std::uint32_t>(blades.size()), &options, 0, nullptr));
+}
+
+bool TearableSkeleton::begin_stroke(const Vector3& base, const Vector3& tip, double width,
+                                    double wall_depth) {
+  if (scene_ == 0) return fail("nothing is attached");
+  const sunder_blade first = blade(base, tip);
+  const sunder_tear_options options = gap(width, wall_depth);
+  return check(sunder_submit_begin_stroke(scene_, instance_, &first, &options, nullptr, nullptr));
+}
+
+bool TearableSkeleton::extend_stroke(const Vector3& base, const Vector3& tip, double seconds) {
+  if (scene_ == 0) return fail("nothing is attached");
+  const sunder_blade next = blade(base, tip);
+  return check(sunder_submit_extend_stroke(scene_, instance_, &next, seconds, nullptr));
+}
+
+bool TearableSkeleton::end_stroke() {
+  if (scene_ == 0) return fail("nothing is attached");
+  return check(sunder_submit_end_stroke(scene_, instance_, nullptr));
 }
 
 bool TearableSkeleton::cut(const Vector3& point, const Vector3& normal, bool caps) {
@@ -131,7 +156,10 @@ bool TearableSkeleton::cut(const Vector3& point, const Vector3& normal, bool cap
 
 bool TearableSkeleton::undo() {
   if (scene_ == 0) return fail("nothing is attached");
-  return check(sunder_submit_undo(scene_, instance_, nullptr));
+  sunder_command command = 0;
+  if (!check(sunder_submit_undo(scene_, instance_, &command))) return false;
+  undos_.push_back(command);
+  return true;
 }
 
 std::string TearableSkeleton::get_log() {
@@ -184,7 +212,9 @@ bool TearableSkeleton::report_results() {
       self().call("emit_signal", Variant("failed"), Variant(errors[i].c_str()));
       continue;
     }
-    has_changed = true;
+    const bool is_undo = std::erase(undos_, kept[i].command) > 0;
+    has_changed |= is_undo || kept[i].vertices_added + kept[i].triangles_added > 0 ||
+                   kept[i].triangles_retired > 0;
     self().call("emit_signal", Variant("torn"), Variant(std::int64_t{kept[i].faces_crossed}),
                 Variant(kept[i].length));
   }

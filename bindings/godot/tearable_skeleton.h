@@ -32,6 +32,10 @@ class TearableSkeleton {
   bool attach(const Variant& mesh_instance);
   /// Tears along a blade with pairs of base and tip, in the next frame.
   bool tear(const Variant& bases, const Variant& tips, double width, double wall_depth);
+  /// A stroke over several frames, in the pose of each: begun, extended `seconds` later, ended.
+  bool begin_stroke(const Vector3& base, const Vector3& tip, double width, double wall_depth);
+  bool extend_stroke(const Vector3& base, const Vector3& tip, double seconds);
+  bool end_stroke();
   /// Cuts by a plane, in the next frame.
   bool cut(const Vector3& point, const Vector3& normal, bool caps);
   /// Takes back the last operation, in the next frame.
@@ -66,6 +70,7 @@ class TearableSkeleton {
   sunder_asset asset_ = 0;
   sunder_scene scene_ = 0;
   sunder_instance instance_ = 0;
+  std::vector<sunder_command> undos_;  ///< Submitted, without a result yet.
   std::vector<double> pose_;
   std::string error_;
 };

@@ -428,7 +428,7 @@ Character as_attached(Character character) {
 TEST_F(GodotExtension, registers_one_node_with_methods_and_signals) {
   const RegisteredClass& of = host.classes.at(kClass);
   EXPECT_EQ(of.parent, "Node3D");
-  EXPECT_EQ(of.methods.size(), 7u);
+  EXPECT_EQ(of.methods.size(), 10u);
   EXPECT_THAT(
       of.argument_types.at("tear"),
       testing::ElementsAre(Type::packed_vector3, Type::packed_vector3, Type::real, Type::real));
@@ -467,7 +467,46 @@ TEST_F(GodotExtension, tears_in_the_pose_as_the_library_does) {
   ASSERT_TRUE(succeeds("undo", {}));
   frame();
   expect_drawn(as_attached(character_));
+  EXPECT_EQ(instance_.meshes_set, 3);
+  Arguments far = stroke(0);
+  far[0] = far[1] = packed(Type::packed_vector3, std::vector<float>{90, 90, 90, 91, 90, 90});
+  ASSERT_TRUE(succeeds("tear", far));
+  frame();
+  EXPECT_EQ(instance_.meshes_set, 3) << "it met nothing";
   EXPECT_THAT(host.errors, IsEmpty());
+}
+
+TEST_F(GodotExtension, strokes_over_frames_tear_in_the_pose_of_each) {
+  ASSERT_TRUE(succeeds("attach", {of(&instance_)})) << error();
+  EXPECT_TRUE(succeeds("extend_stroke", {of(Vector{}), of(Vector{0, 0, 1}), of(0.1)}));
+  frame();
+  ASSERT_EQ(node_->signals.back().name, "failed") << "no stroke was begun";
+  (void)stroke(0);  // chooses the blades
+  const auto place = [&](const Vec3d& of_blade) {
+    const Vec3f world = to_world(of_blade);
+    return of(Vector{world.x(), world.y(), world.z()});
+  };
+  for (std::size_t i = 0; i < blades_.size(); ++i) {
+    const Arguments blade = {place(blades_[i].base), place(blades_[i].tip)};
+    ASSERT_TRUE(i == 0 ? succeeds("begin_stroke", {blade[0], blade[1], of(0.01), of(0.0)})
+                       : succeeds("extend_stroke", {blade[0], blade[1], of(1.0 / 60)}))
+        << error();
+    frame();
+    ASSERT_EQ(node_->signals.back().name, "torn") << error();
+    for (Affine3d& bone : skeleton_->pose)  // it goes on to move
+      bone = (Eigen::Translation3d(0.002, 0, 0) * bone).cast<float>().cast<double>();
+  }
+  ASSERT_TRUE(succeeds("end_stroke", {}));
+  frame();
+  std::int64_t faces = 0;
+  for (const Node::Signal& signal : node_->signals)
+    if (signal.name == "torn") faces += std::get<std::int64_t>(signal.arguments[0].data);
+  EXPECT_GT(faces, 0);
+  EXPECT_GT(instance_.meshes_set, 1);
+  ASSERT_TRUE(succeeds("undo", {}));
+  frame();
+  ASSERT_EQ(node_->signals.back().name, "torn") << error();
+  expect_drawn(as_attached(character_));
 }
 
 TEST_F(GodotExtension, cuts_get_caps_of_the_wound_material) {
