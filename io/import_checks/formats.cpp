@@ -44,6 +44,11 @@ Result<Format> format_of(std::string_view file_name) {
   const auto format = std::find_if(kFormats.begin(), kFormats.end(),
                                    [&](const Format& one) { return one.extension == extension; });
   if (format != kFormats.end()) return *format;
+  if (extension == "usd" || extension == "usda" || extension == "usdc" || extension == "usdz")
+    return Status::failure(StatusCode::unsupported_format, kNone,
+                           "%.80s: USD is written, not read (docs/usd.md says why); convert it to "
+                           "GLB first",
+                           std::string(file_name).c_str());
   std::string known = "glb, vrm, gltf";
   for (const Format& one : kFormats) known += ", " + std::string(one.extension);
   const std::string kind =

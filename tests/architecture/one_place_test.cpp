@@ -65,7 +65,7 @@ TEST(OnePlace, files_are_written_by_one_function) {
   for (const char* const folder :
        {"io/assimp", "io/collada", "io/compression", "io/contained_import", "io/gltf",
         "io/gltf_patch", "io/gltf_read", "io/gltf_write", "io/import_checks", "io/import_messages",
-        "io/operation_log", "io/trajectory", "io/urdf"})
+        "io/operation_log", "io/trajectory", "io/urdf", "io/usd_write"})
     EXPECT_EQ(first_match_below(root, folder, "none", kWriting), "");
   EXPECT_NE(first_match_below(root, "io/files", "none", kWriting), "");
   for (const char* const module : {"core", "skinning", "particles", "scene", "samples"})

@@ -7,13 +7,13 @@
 #include <string>
 #include <utility>
 
-#include "io/internal/copied_materials.h"
 #include "tools/bind/bind_report.h"
 #include "tools/messages/json_file.h"
 #include "tools/messages/overwriting.h"
 #include "tools/messages/text_file.h"
 #include "tools/model/joint_values.h"
 #include "tools/model/load_notes.h"
+#include "tools/model/model_output.h"
 #include "tools/model/pose_argument.h"
 #include "tools/model/robot_joints.h"
 #include "tools/verbs.h"
@@ -142,10 +142,8 @@ ExitCode write_files(const BindRequest& request, const Inputs& inputs, const Any
       return complain(request.report->string(), report->status(), ExitCode::unreadable_input);
   }
   const Character& character = common(binding).character;
-  const SourceDocument* const materials = inputs.model.source.get();
-  const Status status = materials == nullptr ? save_glb(request.output, character, request.save)
-                                             : save_with_materials(request.output, character,
-                                                                   *materials, request.save);
+  const Status status = write_new(request.output, character, inputs.model.source, request.save,
+                                  Messages(Verbosity::normal));
   if (!status) return complain(request.output.string(), status, ExitCode::internal_error);
   if (report)
     if (const Status committed = report->commit(); !committed)

@@ -75,7 +75,8 @@ CLI::App* add_bind(CLI::App& app, BindRequest& request) {
   verb->add_option("--skeleton", request.skeleton, "The model or robot whose skeleton moves it")
       ->type_name("FILE")
       ->required();
-  verb->add_option("-o,--output", request.output, "The model on that skeleton, GLB")
+  verb->add_option("-o,--output", request.output,
+                   "The model on that skeleton: GLB, or USD if it ends in .usda or .usdz")
       ->type_name("FILE")
       ->required();
   add_weight_rules(*verb, request);
@@ -84,6 +85,7 @@ CLI::App* add_bind(CLI::App& app, BindRequest& request) {
   verb->add_option("--report", request.report, "File for a JSON report")->type_name("FILE");
   add_model_reading(*verb, request.reading);
   add_budget(*verb, request.budget);
+  verb->callback([&request, verb] { check_output_format(*verb, request.output); });
   verb->footer(
       "Exit code 1 with warnings.\n\n"
       "Example: sunder bind glove.glb --skeleton hand.urdf --map bones.json --fit -o bound.glb");

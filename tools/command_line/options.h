@@ -38,6 +38,9 @@ void add_budget_of_operations(CLI::App& verb, BudgetLimits& limits);
 
 /// `--weights-as`, the number format of written weights.
 void add_weights_as(CLI::App& verb, SaveOptions& save);
+/// Refuses an output of the kinds of USD that are not written, and options that are only for GLB
+/// with those that are. @throws CLI::ValidationError
+void check_output_format(const CLI::App& verb, const std::filesystem::path& output);
 /// `--max-error` and its limits, which exclude that the caller chooses influences and format.
 /// @param verb  with the options --influences and --weights-as.
 /// @param robot_limits  if not null, `--limits` may be a URDF file for fits, without `--max-error`.

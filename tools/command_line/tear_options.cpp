@@ -82,8 +82,9 @@ void add_report_options(CLI::App& verb, TearRequest& request) {
 /// Options that name further outputs.
 void add_further_files(CLI::App& verb, TearRequest& request) {
   CLI::Option* const pieces =
-      verb.add_option("--pieces", request.pieces,
-                      "Write each detached piece too: to PREFIX1.glb, PREFIX2.glb ...")
+      verb.add_option(
+              "--pieces", request.pieces,
+              "Write each detached piece too, as the model: to PREFIX1.glb, PREFIX2.glb ...")
           ->type_name("PREFIX");
   verb.add_flag("--animated-pieces", request.pieces_are_animated,
                 "Pieces keep their bones and clips; otherwise each is one rigid body, as it stood")
@@ -169,7 +170,7 @@ void add_open(CLI::App& verb, TearRequest& request) {
 CLI::App* add_tear(CLI::App& app, TearRequest& request) {
   const auto robot = std::make_shared<RobotTearRequest>();  // lives as long as the options
   CLI::App* const verb = app.add_subcommand(
-      "tear", "Apply a list of tears, cuts and bores to a model and save it as GLB");
+      "tear", "Apply a list of tears, cuts and bores to a model and save it as GLB or USD");
   verb->add_option("MODEL", request.model, "Model file, as for `sunder info`")
       ->type_name("FILE")
       ->required();
@@ -181,7 +182,8 @@ CLI::App* add_tear(CLI::App& app, TearRequest& request) {
   add_robot(*verb, *robot,
             "Robot, URDF, whose blade tears the model after --ops and the options above; see "
             "docs/robot_tears.md");
-  verb->add_option("-o,--output", request.output, "File for the torn model, GLB")
+  verb->add_option("-o,--output", request.output,
+                   "File for the torn model: GLB, or USD if it ends in .usda or .usdz")
       ->type_name("FILE");
   add_influences(*verb, request);
   add_weights_as(*verb, request.save);
@@ -209,6 +211,7 @@ CLI::App* add_tear(CLI::App& app, TearRequest& request) {
     if (request.operations.empty() && request.aimed.empty() && !request.robot)
       throw CLI::RequiredError("--ops (or --slash, --sever, --puncture, --robot)");
     if (!request.dry_run && !request.output) throw CLI::RequiredError("--output (or --dry-run)");
+    if (request.output) check_output_format(*verb, *request.output);
   });
   add_model_reading(*verb, request.reading);
   add_budget_of_operations(*verb, request.budget);

@@ -82,7 +82,8 @@ CLI::App* add_transfer(CLI::App& app, TransferRequest& request) {
       ->type_name("FILE")
       ->required();
   const CLI::Option* const output =
-      verb->add_option("-o,--output", request.output, "The target with its new weights, GLB")
+      verb->add_option("-o,--output", request.output,
+                       "The target with its new weights: GLB, or USD if it ends in .usda or .usdz")
           ->type_name("FILE");
   verb->add_flag("--clips", request.copies_clips,
                  "Write the source's clips too, for bones that rest alike in both");
@@ -92,11 +93,12 @@ CLI::App* add_transfer(CLI::App& app, TransferRequest& request) {
   add_weights_as(*verb, request.save);
   add_maximum_error(*verb, request.maximum_error);
   verb->add_option("--report", request.report, "File for a JSON report")->type_name("FILE");
-  verb->callback([&request, output] {
+  verb->callback([&request, verb, output] {
     if (request.options.dry_run && request.maximum_error)
       throw CLI::ValidationError("--max-error", "needs a model to write: not with --dry-run");
     if (request.options.dry_run == (output->count() > 0))
       throw CLI::ValidationError("--output", "is needed without --dry-run, and only then");
+    check_output_format(*verb, request.output);
   });
   add_model_reading(*verb, request.reading);
   add_budget(*verb, request.budget);

@@ -2,6 +2,7 @@
 
 #include "tools/command_line/number_option.h"
 #include "tools/command_line/options.h"
+#include "tools/model/model_output.h"
 #include "tools/model/robot_joints.h"
 #include "tools/written_weights/written_influences.h"
 
@@ -27,6 +28,19 @@ void add_weights_as(CLI::App& verb, SaveOptions& save) {
           "exactly one")
       ->check(CLI::IsMember({"float", "u16", "u8"}))
       ->default_str("float");
+}
+
+void check_output_format(const CLI::App& verb, const std::filesystem::path& output) {
+  const std::string ending = output.extension().string();
+  if (ending == ".usd" || ending == ".usdc")
+    throw CLI::ValidationError(
+        "--output", output.string() + ": '" + ending +
+                        "' is not written; USD is written as text, .usda, or packed, .usdz");
+  if (!is_usd(output)) return;
+  for (const char* const option : {"--weights-as", "--max-error"})
+    if (verb.get_option_no_throw(option) != nullptr && verb.count(option) > 0)
+      throw CLI::ValidationError(
+          option, "is for GLB: USD stores weights as floats; --output is " + output.string());
 }
 
 void add_maximum_error(CLI::App& verb, std::optional<MaximumError>& wanted,

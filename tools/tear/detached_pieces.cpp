@@ -4,8 +4,7 @@
 
 #include <utility>
 
-#include "io/internal/copied_materials.h"
-#include "tools/messages/messages.h"
+#include "tools/model/model_output.h"
 
 namespace sunder::tools {
 
@@ -43,23 +42,23 @@ void DetachedPieces::keep(const Operation& operation, Step piece, bool is_record
   }
 }
 
-std::vector<std::string> DetachedPieces::files(const std::string& prefix) const {
+std::vector<std::string> DetachedPieces::files() const {
   std::vector<std::string> files;
   for (const Step& step : done_)
-    if (step) files.push_back(prefix + std::to_string(files.size() + 1) + ".glb");
+    if (step) files.push_back(prefix_ + std::to_string(files.size() + 1) + extension_);
   return files;
 }
 
-ExitCode DetachedPieces::write(const std::string& prefix, const LoadedCharacter& loaded,
-                               const SaveOptions& save, const FinishPiece& finish,
+ExitCode DetachedPieces::write(const LoadedCharacter& loaded, const SaveOptions& save,
+                               const FinishPiece& finish, const Messages& messages,
                                std::vector<std::string>& written) const {
   SaveOptions options = save;
   options.weights_of_mesh.clear();  // of the meshes of the model
-  const std::vector<std::string> names = files(prefix);
+  const std::vector<std::string> names = files();
   for (const Step& step : done_) {
     if (!step) continue;
     const std::string& file = names[written.size()];
-    const Status status = save_with_materials(file, *finish(*step), *loaded.source, options);
+    const Status status = write_new(file, *finish(*step), loaded.source, options, messages);
     if (!status) return complain(file, status, ExitCode::internal_error);
     written.push_back(file);
   }

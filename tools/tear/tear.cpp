@@ -19,6 +19,7 @@
 #include "tools/model/coupled_refits.h"
 #include "tools/model/load_notes.h"
 #include "tools/model/model_check.h"
+#include "tools/model/model_output.h"
 #include "tools/model/named_material.h"
 #include "tools/model/named_poses.h"
 #include "tools/model/robot_joints.h"
@@ -112,6 +113,12 @@ ExitCode choose_influences(TearRun& run) {
   return ExitCode::ok;
 }
 
+/// Pieces are written as the model is.
+std::string ending_of_pieces(const TearRequest& request) {
+  const bool is_any_usd = request.output && is_usd(*request.output);
+  return is_any_usd ? request.output->extension().string() : ".glb";
+}
+
 /// Warns of options that do not fit together or the source.
 void warn_of_options(const TearRequest& request, const Character& source,
                      const Messages& messages) {
@@ -119,7 +126,7 @@ void warn_of_options(const TearRequest& request, const Character& source,
     const std::string fault = file ? other_ending({option, *file}, ending) : std::string();
     if (!fault.empty()) messages.warn(fault);
   };
-  warn_of_name("--output", request.output, "glb");
+  if (request.output && !is_usd(*request.output)) warn_of_name("--output", request.output, "glb");
   warn_of_name("--picture", request.picture, "png");
   warn_of_name("--wound-mask", request.wound_mask, "png");
   if (!limits_influences(request.save)) return;
@@ -283,7 +290,8 @@ ExitCode run_tear(const TearRequest& request) {
               *counts};
   run.times.loading = loading;
   if (request.pieces)
-    run.pieces.emplace(request.pieces_are_animated ? PieceMotion::animated : PieceMotion::frozen);
+    run.pieces.emplace(request.pieces_are_animated ? PieceMotion::animated : PieceMotion::frozen,
+                       *request.pieces, ending_of_pieces(request));
   run.has_findings = has_losses(loaded->report);
   if (const ExitCode code = add_robot_tear(run, operations); code != ExitCode::ok) return code;
   if (const ExitCode code = play_operations(operations, run, progress); code != ExitCode::ok)

@@ -9,6 +9,7 @@
 #include "tools/messages/output_file.h"
 #include "tools/messages/overwriting.h"
 #include "tools/messages/text_file.h"
+#include "tools/model/model_output.h"
 #include "tools/tear/flesh_materials.h"
 #include "tools/tear/open_lips_of_run.h"
 #include "tools/written_weights/place_bound.h"
@@ -56,8 +57,10 @@ std::vector<NamedFile> outputs_of(const TearRequest& request) {
 
 /// What the file tells of its vertices.
 ExitCode add_origins(const TearRun& run, SaveOptions& save) {
-  // Positions that gape are not those of the source.
-  if (run.request.without_origins || run.request.open == OpenLips::baked) return ExitCode::ok;
+  // Positions that gape are not those of the source, and USD has no such record.
+  const TearRequest& request = run.request;
+  if (request.without_origins || request.open == OpenLips::baked || is_usd(*request.output))
+    return ExitCode::ok;
   const std::string place = run.request.model.string();
   Result<std::vector<MeshOrigins>> origins = vertex_origins(run.model);
   if (!origins) return complain(place, origins.error(), ExitCode::internal_error);
@@ -98,8 +101,7 @@ ExitCode check_piece_files(const TearRun& run) {
   const TearRequest& request = run.request;
   if (request.dry_run || !run.pieces) return ExitCode::ok;
   std::vector<NamedFile> outputs = outputs_of(request);
-  for (const std::string& file : run.pieces->files(*request.pieces))
-    outputs.push_back({"--pieces", file});
+  for (const std::string& file : run.pieces->files()) outputs.push_back({"--pieces", file});
   return check_overwriting(request, outputs);
 }
 
@@ -112,7 +114,7 @@ ExitCode write_pieces(TearRun& run) {
   save.materials = flesh->appended();
   const auto with_flesh = [&](const DetachedPiece& piece) { return flesh->with_flesh(piece); };
   const ExitCode code =
-      run.pieces->write(*request.pieces, run.loaded, save, with_flesh, run.piece_files);
+      run.pieces->write(run.loaded, save, with_flesh, run.messages, run.piece_files);
   if (code == ExitCode::ok && run.piece_files.empty())
     run.messages.warn(
         "--pieces: no piece was written; --sever takes off what it severs, and so does {\"op\": "
@@ -140,7 +142,8 @@ ExitCode write_files(const TearRun& run, const std::string& report, const std::s
     return complain(request.output->string(), written.error(), ExitCode::internal_error);
   save.materials = written->materials;
   if (const ExitCode code = add_origins(run, save); code != ExitCode::ok) return code;
-  if (const Status status = save_glb(*request.output, *written->character, run.loaded, save);
+  if (const Status status =
+          write_changed(*request.output, *written->character, run.loaded, save, run.messages);
       !status)
     return complain(request.output->string(), status, ExitCode::internal_error);
   if (const Status status = log_file.commit(); !status)

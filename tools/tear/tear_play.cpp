@@ -7,6 +7,7 @@
 #include <utility>
 #include <variant>
 
+#include "tools/messages/printed.h"
 #include "tools/model/history.h"
 #include "tools/tear/miss.h"
 #include "tools/tear/operation_line.h"

@@ -17,6 +17,7 @@
 #include "tools/messages/text_file.h"
 #include "tools/model/bone_names.h"
 #include "tools/model/load_notes.h"
+#include "tools/model/model_output.h"
 #include "tools/model/name_advice.h"
 #include "tools/transfer/copy_clips.h"
 #include "tools/transfer/place_question.h"
@@ -132,7 +133,9 @@ ExitCode write_files(const TransferRequest& request, const LoadedCharacter& targ
   if (certified) save.weights_of_mesh = certified->formats;
   const Character& character = certified ? certified->character : result.character;
   if (!request.options.dry_run)
-    if (const Status status = save_glb(request.output, character, target, save); !status)
+    if (const Status status =
+            write_changed(request.output, character, target, save, Messages(Verbosity::normal));
+        !status)
       return complain(request.output.string(), status, ExitCode::internal_error);
   if (report)
     if (const Status status = report->commit(); !status)
