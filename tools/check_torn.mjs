@@ -183,7 +183,8 @@ class TornMesh {  // the primitives of a torn file that share vertices
         const parents = (of ?? []).filter(([parent]) => parent >= this.first).map(([parent]) => this.origins[parent - this.first]);
         if (!of || (values === 1 && !isPosition)) return;
         const isFree = isPosition && !prefix && (isFitted || parents.some((parent) => parent.isFitted)), isLabel = name.startsWith('_') && !old.isFloat && !old.unit;
-        const text = compareMean(of, now, this.first + i, { isDirection, isLabel, slack: parents.length > 0 ? HALF_ULP : 0, bound: isFree ? this.options.placeBound : 0 });
+        const aside = isPosition && !prefix ? 4 * HALF_ULP * Math.max(...at(now, this.first + i).map(Math.abs)) : 0;  // to other points of the place, or off a face's edge
+        const text = compareMean(of, now, this.first + i, { isDirection, isLabel, slack: parents.length > 0 ? HALF_ULP : 0, bound: isFree ? this.options.placeBound : aside });
         if (text) this.say(this.first + i, prefix + name, text);
       });
     }
@@ -203,15 +204,15 @@ class TornMesh {  // the primitives of a torn file that share vertices
       if (text) say(v, text);
       if (!of) continue;
       const state = [...at(position, v), ...[...written[v]].sort(([x], [y]) => x - y).flat()], twin = twins.get(place) ?? twins.set(place, state).get(place);
-      const reach = 4 * HALF_ULP * Math.max(4, ...of.flatMap(([parent]) => at(position, parent)).map(Math.abs));  // of another vertex of the same point
+      const reach = 8 * HALF_ULP * Math.max(4, ...of.flatMap(([parent]) => at(position, parent)).map(Math.abs));  // of another vertex of the same point
       if (twin !== state && (twin.length !== state.length || state.some((x, i) => !(Math.abs(x - twin[i]) <= reach)))) say(v, 'it parts from another vertex of the same point');
     }
   }
   checkSums() {  // what the source does not tell is as it was written
     const stored = (of) => [...of].filter(([name, one]) => one.stored && !SIDES.includes(name)).map(([, one]) => one.stored);
     const all = [this.after.attributes, ...this.after.targets].flatMap(stored), sides = this.after.attributes.get(SIDE)?.values ?? [];
-    const sumOfVertex = (v) => all.reduce((begun, one) => fnv(one, v, v + 1, begun), undefined);
-    this.sums.forEach((sum, i) => sum === sumOfVertex(this.first + i) || this.say(this.first + i, 'sums', 'its bytes are not those that were written'));
+    const sumOf = (v) => all.reduce((begun, one) => fnv(one, v, v + 1, begun), undefined), text = 'its bytes are not those that were written';
+    this.sums.forEach((sum, i) => sum === sumOf(this.first + i) || this.say(this.first + i, 'sums', text));
     const ofSides = fnv({ bytes: new Uint8Array(Float32Array.from(sides).buffer), stride: 4, size: 4 }, 0, sides.length);
     const appended = this.after.targets.slice(this.before.targets.length).flatMap(stored);
     if (appended.reduce((begun, one) => fnv(one, 0, this.after.count, begun), ofSides) !== this.record.restSum) this.say(null, SIDE, 'or an appended morph target is not that which was written');
@@ -260,8 +261,7 @@ function isUntouched(source, torn, primitive, node) {  // a primitive without a 
   const same = (a, b) => a?.values.length === b?.values.length && (a?.values ?? []).every((x, i) => x === b.values[i]);
   const allSame = (a, b) => a.size === b?.size && [...a].every(([name, one]) => same(one, b.get(name)));
   const indices = (file, of) => (of.indices === undefined ? undefined : file.accessor(of.indices)), now = torn.vertices(primitive);
-  const isSame = (one, { attributes, targets }) => allSame(attributes, now.attributes) && targets.every((of, t) => allSame(of, now.targets[t])) &&
-    same(indices(source, one), indices(torn, primitive));
+  const isSame = (one, of) => same(indices(source, one), indices(torn, primitive)) && allSame(of.attributes, now.attributes) && of.targets.every((target, t) => allSame(target, now.targets[t]));
   return source.entry('meshes', source.entry('nodes', node).mesh).primitives.some((one) => isSame(one, source.vertices(one)));
 }
 /** Checks a torn file against its source. @return { faults: [{ mesh, primitive, vertex, attribute, text }], meshes: counts }. Throws Unchecked. */

@@ -67,3 +67,31 @@ def test_dask_writes_the_same_files(models, tmp_path):
         code, text = run(models, tmp_path / 'by_dask', '--scheduler', cluster.scheduler_address)
     assert code == 0, text
     assert files_of(tmp_path / 'by_dask') == files_of(tmp_path / 'torn')
+
+
+def snakemake(models, output, *options):
+    """A run of tear_many/Snakefile. @return what it prints."""
+    program = shutil.which('snakemake') or pytest.skip('needs snakemake: scripts/setup snakemake')
+    done = subprocess.run(
+        [program, '-s', SAMPLE.parent / 'tear_many/Snakefile', '--directory', output.parent, '--cores', '2', '--scheduler', 'greedy', '--config',
+         f'models={models}', f'output={output}', *options], capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0, done.stderr
+    return done.stderr
+
+
+def test_snakemake_writes_the_same_files(models, tmp_path):
+    (models / 'broken.glb').write_bytes(b'glTF' + bytes(40))
+    output = tmp_path / 'by_snakemake/torn'
+    output.parent.mkdir()
+    assert '3 of 4 steps' in snakemake(models, output)
+    run(models, tmp_path / 'torn')
+    files = files_of(output)
+    table = files.pop(pathlib.Path('table.tsv')).decode().splitlines()
+    assert files == files_of(tmp_path / 'torn')
+    assert len(table) == 4 and all(len(row.split('\t')) == 5 for row in table)
+    assert sum('broken.glb' in row for row in table) == 1
+    assert 'Nothing to be done' in snakemake(models, output)
+    for name in ('tube.glb.torn.json', 'table.tsv'):  # as if the run had been stopped
+        (output / name).unlink()
+    assert '1 of 2 steps' in snakemake(models, output)
+    assert files_of(output)[pathlib.Path('tube.glb.torn.json')] == files[pathlib.Path('tube.glb.torn.json')]
