@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <numbers>
 #include <variant>
 #include <vector>
 
@@ -100,8 +101,10 @@ class BulletRagdoll {
     const double swing = is_hinge ? 0.0 : from.limit.cone;
     // The middle angle must stay below a right one, else the three angles are not unique.
     const auto y = btScalar(std::min(swing, 1.4)), z = btScalar(swing);
-    joint->setAngularLowerLimit({btScalar(from.limit.lower), -y, -z});
-    joint->setAngularUpperLimit({btScalar(from.limit.upper), y, z});
+    // The angles of this joint count the other way round, and from -pi to pi.
+    constexpr double kPi = std::numbers::pi;
+    joint->setAngularLowerLimit({btScalar(-std::min(from.limit.upper, kPi)), -y, -z});
+    joint->setAngularUpperLimit({btScalar(-std::max(from.limit.lower, -kPi)), y, z});
     world_.addConstraint(joint.get(), true);
     joints_.push_back(std::move(joint));
   }

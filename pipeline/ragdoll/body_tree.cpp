@@ -12,74 +12,74 @@ namespace {
 class Joining {
  public:
   Joining(const Skeleton& skeleton, std::vector<double> masses)
-      : skeleton_(skeleton), masses_(std::move(masses)), joined_(masses_.size(), kNone) {
-    find_movers();
+      : skeleton_(skeleton),
+        masses_(std::move(masses)),
+        joined_(masses_.size(), kNone),
+        up_(masses_.size()) {
+    for (std::uint32_t bone = 0; bone < up_.size(); ++bone)
+      up_[bone] = skeleton_.bones[bone].parent;
+    find_below();
   }
 
   void join_lighter_than(double least) {
-    for (bool changes = true; changes;) {
+    for (bool changes = true; changes; find_below()) {
       changes = false;
       for (auto bone = static_cast<std::uint32_t>(masses_.size()); bone-- > 0;)
-        if (masses_[bone] > 0 && masses_[bone] < least) changes |= join(bone);
-      if (changes) find_movers();
+        if (has_body(bone) && masses_[bone] < least) changes |= join(bone);
     }
   }
+  /// The lightest bodies beyond the most join others.
   void join_beyond(std::uint32_t most) {
-    for (auto count = std::ranges::count_if(masses_, weighs); count > most; --count) {
-      const std::uint32_t lightest = extreme(std::less<>(), kNone);
-      if (!join(lightest)) join_to(lightest, extreme(std::greater<>(), lightest));
-      find_movers();
-    }
+    std::vector<std::uint32_t> bodies;
+    for (std::uint32_t bone = 0; bone < masses_.size(); ++bone)
+      if (has_body(bone)) bodies.push_back(bone);
+    if (bodies.size() <= most) return;
+    std::ranges::stable_sort(bodies, {}, [&](std::uint32_t bone) { return masses_[bone]; });
+    const std::uint32_t heaviest = bodies.back();
+    bodies.resize(bodies.size() - most);
+    std::ranges::sort(bodies, std::greater<>());  // those below before those above
+    for (const std::uint32_t bone : bodies)
+      if (!join(bone)) join_to(bone, heaviest);
+    find_below();
   }
+  [[nodiscard]] double mass(std::uint32_t bone) const { return masses_[bone]; }
   [[nodiscard]] bool has_body(std::uint32_t bone) const { return masses_[bone] > 0; }
   [[nodiscard]] bool is_joined(std::uint32_t bone) const { return joined_[bone] != kNone; }
-  /// The bone whose body moves this one, or kNone.
-  [[nodiscard]] std::uint32_t mover_of(std::uint32_t bone) const { return movers_[bone]; }
-  /// Of a bone with a body: the bone to whose body it is tied, or kNone.
-  [[nodiscard]] std::uint32_t above(std::uint32_t bone) const { return above_[bone]; }
+  /// The bone with the body that this one is, or goes with; kNone if there is none below it.
+  [[nodiscard]] std::uint32_t mover_of(std::uint32_t bone) {
+    return has_body(bone) || is_joined(bone) ? now_of(bone) : below_[bone];
+  }
 
  private:
-  static bool weighs(double mass) { return mass > 0; }
-
-  /// From the leaves up, each bone without a part gets the heaviest mover below it; then, from the
-  /// roots down, those above.
-  void find_movers() {
-    const auto count = static_cast<std::uint32_t>(masses_.size());
-    movers_.assign(count, kNone);
-    above_.assign(count, kNone);
-    below_.assign(count, {});
-    for (std::uint32_t bone = count; bone-- > 0;) {
-      if (has_body(bone) || is_joined(bone)) movers_[bone] = now_of(bone);
-      const std::uint32_t parent = skeleton_.bones[bone].parent, mover = movers_[bone];
-      if (parent == kNone || mover == kNone || has_body(parent) || is_joined(parent) ||
-          is_joined(bone))
-        continue;
-      std::uint32_t& best = movers_[parent];
-      if (best == kNone || masses_[mover] >= masses_[best]) best = mover;
-    }
-    for (std::uint32_t bone = 0; bone < count; ++bone) {
+  /// From the leaves up: the heaviest of the nearest bodies below each bone.
+  void find_below() {
+    below_.assign(masses_.size(), kNone);
+    for (auto bone = static_cast<std::uint32_t>(masses_.size()); bone-- > 0;) {
       const std::uint32_t parent = skeleton_.bones[bone].parent;
-      const std::uint32_t above = parent == kNone ? kNone : movers_[parent];
-      std::uint32_t& mover = movers_[bone];
-      if (mover == kNone) mover = above;
-      if (mover == above || mover == kNone || is_joined(bone)) continue;
-      above_[mover] = above;
-      if (above != kNone) below_[above].push_back(mover);
+      const std::uint32_t nearest = has_body(bone) ? bone : below_[bone];
+      if (parent == kNone || nearest == kNone) continue;
+      std::uint32_t& best = below_[parent];
+      if (best == kNone || masses_[nearest] >= masses_[best]) best = nearest;
     }
   }
-  [[nodiscard]] std::uint32_t now_of(std::uint32_t bone) const {
-    while (joined_[bone] != kNone) bone = joined_[bone];
-    return bone;
+  [[nodiscard]] std::uint32_t now_of(std::uint32_t bone) {
+    std::uint32_t now = bone;
+    while (joined_[now] != kNone) now = joined_[now];
+    while (bone != now) bone = std::exchange(joined_[bone], now);  // shorter for later searches
+    return now;
   }
-  /// @return whether there is a body above or below.
+  [[nodiscard]] std::uint32_t body_above(std::uint32_t bone) {
+    std::uint32_t above = up_[bone];
+    while (above != kNone && !has_body(above)) above = up_[above];
+    while (up_[bone] != above) bone = std::exchange(up_[bone], above);
+    return above;
+  }
+  /// @return whether there is another body above, or below.
   bool join(std::uint32_t bone) {
-    std::uint32_t to = above_[bone];
-    if (to == kNone)
-      for (const std::uint32_t other : below_[bone])
-        if (now_of(other) != bone && (to == kNone || masses_[now_of(other)] > masses_[now_of(to)]))
-          to = other;
-    if (to == kNone) return false;
-    join_to(bone, now_of(to));
+    std::uint32_t to = body_above(bone);
+    if (to == kNone && below_[bone] != kNone) to = now_of(below_[bone]);
+    if (to == kNone || to == bone) return false;
+    join_to(bone, to);
     return true;
   }
   void join_to(std::uint32_t bone, std::uint32_t to) {
@@ -87,23 +87,48 @@ class Joining {
     masses_[bone] = 0;
     joined_[bone] = to;
   }
-  /// The bone with the least or greatest mass, but for one.
-  template <class Before>
-  [[nodiscard]] std::uint32_t extreme(Before before, std::uint32_t but) const {
-    std::uint32_t best = kNone;
-    for (std::uint32_t bone = 0; bone < masses_.size(); ++bone)
-      if (bone != but && masses_[bone] > 0 &&
-          (best == kNone || before(masses_[bone], masses_[best])))
-        best = bone;
-    return best;
-  }
 
   const Skeleton& skeleton_;
   std::vector<double> masses_;         ///< Per bone; 0 without a body.
   std::vector<std::uint32_t> joined_;  ///< Of a bone whose body joined another one: that bone.
-  std::vector<std::uint32_t> movers_, above_;
-  std::vector<std::vector<std::uint32_t>> below_;  ///< Of each bone with a body: those tied to it.
+  std::vector<std::uint32_t> up_;      ///< A bone above; none between has a body.
+  std::vector<std::uint32_t> below_;
 };
+
+bool hangs_on(const BodyTree& tree, std::uint32_t body, std::uint32_t above) {
+  while (body != kNone && body != above) body = tree.parents[body];
+  return body == above;
+}
+
+/// Ties each body to the first on the way up that does not hang on it.
+void tie_to_bones_above(const Skeleton& skeleton, Joining& joining,
+                        const std::vector<std::uint32_t>& body_at, BodyTree& tree) {
+  for (std::uint32_t body = 0; body < tree.bones.size(); ++body)
+    for (std::uint32_t up = skeleton.bones[tree.bones[body]].parent;
+         up != kNone && tree.parents[body] == kNone; up = skeleton.bones[up].parent) {
+      const std::uint32_t mover = joining.mover_of(up);
+      if (mover == kNone || hangs_on(tree, body_at[mover], body)) continue;
+      tree.parents[body] = body_at[mover];
+    }
+}
+
+/// Ties the bodies of one tree of bones that hang on none to the heaviest of them.
+void tie_roots(const Skeleton& skeleton, const Joining& joining, BodyTree& tree) {
+  std::vector<std::uint32_t> root_of(skeleton.bones.size()), main(skeleton.bones.size(), kNone);
+  for (std::uint32_t bone = 0; bone < root_of.size(); ++bone) {
+    const std::uint32_t parent = skeleton.bones[bone].parent;
+    root_of[bone] = parent == kNone ? bone : root_of[parent];
+  }
+  for (const bool ties : {false, true})
+    for (std::uint32_t body = 0; body < tree.bones.size(); ++body) {
+      if (tree.parents[body] != kNone) continue;
+      std::uint32_t& best = main[root_of[tree.bones[body]]];
+      if (!ties &&
+          (best == kNone || joining.mass(tree.bones[body]) > joining.mass(tree.bones[best])))
+        best = body;
+      if (ties && best != body) tree.parents[body] = best;
+    }
+}
 
 /// Renumbers the bodies such that parents come first, otherwise in their order.
 void sort_parents_first(BodyTree& tree) {
@@ -124,11 +149,6 @@ void sort_parents_first(BodyTree& tree) {
   }
   for (const std::uint32_t body : tree.body_of_bone) sorted.body_of_bone.push_back(place[body]);
   tree = std::move(sorted);
-}
-
-bool hangs_on(const BodyTree& tree, std::uint32_t body, std::uint32_t above) {
-  while (body != kNone && body != above) body = tree.parents[body];
-  return body == above;
 }
 
 }  // namespace
@@ -152,13 +172,14 @@ BodyTree make_body_tree(const Skeleton& skeleton, std::vector<double> masses, st
       top = up;
     tree.joint_bones.push_back(top);
   }
-  for (const std::uint32_t bone : tree.bones) {
-    const std::uint32_t above = joining.above(bone);
-    tree.parents.push_back(above == kNone ? kNone : body_at[above]);
-  }
+  tree.parents.assign(tree.bones.size(), kNone);
+  tie_to_bones_above(skeleton, joining, body_at, tree);
+  tie_roots(skeleton, joining, tree);
   for (std::uint32_t bone = 0; bone < bone_count; ++bone) {
-    const std::uint32_t mover = joining.mover_of(bone);
-    tree.body_of_bone.push_back(mover == kNone ? 0 : body_at[mover]);
+    const std::uint32_t mover = joining.mover_of(bone), parent = skeleton.bones[bone].parent;
+    tree.body_of_bone.push_back(mover != kNone    ? body_at[mover]
+                                : parent != kNone ? tree.body_of_bone[parent]
+                                                  : 0);
   }
   sort_parents_first(tree);
   return tree;

@@ -14,6 +14,7 @@
 #include "samples/bullet_ragdoll.h"
 #include "support/models/rigs.h"
 #include "support/models/shared_models.h"
+#include "support/oracles/ragdoll_laws.h"
 
 namespace sunder::test {
 namespace {
@@ -79,6 +80,18 @@ double gap_of(const Ragdoll& ragdoll, const std::vector<Affine3d>& places) {
   return gap;
 }
 
+/// By how much any hinge is beyond its limit, radians. (Of cones Bullet limits three angles in
+/// turn, which are those of swing and twist for small swings only.)
+double hinge_excess_of(const Ragdoll& ragdoll, const std::vector<Affine3d>& places) {
+  std::vector<Quatd> turns(places.size());
+  EXPECT_TRUE(joint_turns(ragdoll, places, turns));
+  double excess = 0;
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if (ragdoll.bodies[i].parent != kNone && ragdoll.bodies[i].limit.kind == BoneLimit::Kind::hinge)
+      excess = std::max(excess, beyond_limit(turns[i], ragdoll.bodies[i].limit));
+  return excess;
+}
+
 class RagdollFalls : public testing::TestWithParam<std::filesystem::path> {};
 
 TEST_P(RagdollFalls, without_gaining_energy) {
@@ -115,9 +128,13 @@ TEST_P(RagdollFalls, without_gaining_energy) {
   EXPECT_LE(most - start, 0.02 * mass * kGravity * 0.5) << "as much as falling 1 cm gives";
   EXPECT_LT(energy_of(*ragdoll, limp), start);
   EXPECT_LT(depth, 0.08) << "a step of the impact, at 3 m/s, is 1.3 cm";
-  EXPECT_LT(gap, 0.15);
-  EXPECT_LT(resting_depth, 0.01);
-  EXPECT_LT(resting_gap, 0.04) << "of a chain of 16 bodies, one 500 times as heavy as another";
+
+  const bool is_chain =
+      GetParam().stem() == "many_bones";  // one of 16 is 500 times as heavy as another
+  EXPECT_LT(resting_depth, is_chain ? 0.03 : 0.01);
+  EXPECT_LT(resting_gap, is_chain ? 0.04 : 0.01);
+  EXPECT_LT(gap, is_chain ? 0.5 : 0.1);
+  EXPECT_LT(hinge_excess_of(*ragdoll, limp.places()), 0.1);
   ModelPose end = pose;
   ASSERT_TRUE(pose_of_bodies(*ragdoll, limp.places(), end));
   EXPECT_LT(posed_diagonal(character, end), 4 * 1.7);

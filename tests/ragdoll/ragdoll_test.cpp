@@ -216,6 +216,23 @@ TEST(Ragdoll, mirrored_bones_keep_their_joints) {
   }
 }
 
+TEST(Ragdoll, parts_on_mirrored_bones_weigh_as_much) {
+  const Character figure = make_block_figure();
+  ASSERT_EQ(figure.meshes.size(), 2u);
+  const auto mass_of = [&](std::uint32_t mesh, const ModelPose& pose) {
+    return compute_mass(posed_positions(figure, mesh, pose), figure.meshes[mesh].triangles)->mass;
+  };
+  const ModelPose rest = *rest_pose(figure);
+  for (const double scale : {1.0, -1.0, -2.0, -0.5}) {
+    ModelPose pose = rest;
+    Affine3d& head = pose.model_from_bone[figure.skins[0].bones[1]];
+    head = head * Eigen::Scaling(scale, 1.0, 1.0);
+    double mass = 0;
+    for (const RagdollBody& body : ragdoll_of(figure, pose).bodies) mass += body.mass;
+    EXPECT_NEAR(mass, mass_of(0, rest) + std::abs(scale) * mass_of(1, rest), 1e-6 * mass) << scale;
+  }
+}
+
 TEST(Ragdoll, parts_without_a_common_bone_are_not_tied) {
   Character two = make_two_tubes(8, 8);
   const Ragdoll ragdoll = ragdoll_of(two, *rest_pose(two));

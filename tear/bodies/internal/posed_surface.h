@@ -10,7 +10,7 @@ namespace sunder::bodies {
 /// The surface of all meshes of a character in a pose, in model space.
 struct PosedSurface {
   std::vector<Vec3d> positions;
-  std::vector<Triangle> triangles;   ///< Retired ones too.
+  std::vector<Triangle> triangles;   ///< Retired ones too; turned around where a bone mirrors.
   std::vector<std::uint32_t> bones;  ///< Per triangle: main_bone(), or kNone of a retired one.
 };
 
