@@ -7,6 +7,9 @@
 
 #include <algorithm>
 #include <dlfcn.h>
+#include <filesystem>
+#include <fstream>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -434,6 +437,35 @@ TEST_F(GodotExtension, registers_one_node_with_methods_and_signals) {
       testing::ElementsAre(Type::packed_vector3, Type::packed_vector3, Type::real, Type::real));
   EXPECT_EQ(of.signals.at("torn"), 2u);
   EXPECT_EQ(of.signals.at("failed"), 1u);
+}
+
+/// Lines "platform = …res://addons/sunder/FILE…" of a section, by platform.
+std::map<std::string, std::string> files_of(const std::string& section) {
+  std::ifstream file(SUNDER_GODOT_ADDON "/sunder.gdextension");
+  std::map<std::string, std::string> files;
+  const std::string folder = "res://addons/sunder/";
+  bool is_inside = false;
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with("[")) is_inside = line == "[" + section + "]";
+    const std::size_t begin = line.find(folder);
+    if (!is_inside || begin == std::string::npos) continue;
+    const std::size_t name = begin + folder.size();
+    files[line.substr(0, line.find(' '))] = line.substr(name, line.find('"', name) - name);
+  }
+  return files;
+}
+
+TEST(GodotAddon, names_for_each_platform_the_files_that_are_built) {
+  const std::map<std::string, std::string> libraries = files_of("libraries"),
+                                           dependencies = files_of("dependencies");
+  ASSERT_EQ(libraries.size(), 4u);
+  for (const auto& [platform, file] : libraries)
+    EXPECT_TRUE(dependencies.contains(platform)) << "an exported game would lack the C library";
+  const std::filesystem::path addon = SUNDER_GODOT_ADDON;
+  EXPECT_TRUE(
+      std::filesystem::equivalent(addon / libraries.at("linux.x86_64"), SUNDER_GODOT_LIBRARY));
+  EXPECT_TRUE(std::filesystem::exists(addon / dependencies.at("linux.x86_64")));
+  EXPECT_EQ(dependencies.at("linux.arm64"), dependencies.at("linux.x86_64"));
 }
 
 TEST_F(GodotExtension, an_older_host_is_told_what_it_lacks) {
