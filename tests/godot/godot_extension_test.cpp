@@ -722,6 +722,43 @@ TEST_F(GodotExtension, a_failing_attach_changes_nothing) {
   expect_drawn(model->character());
 }
 
+/// A triangle that a wide gap takes away is a surface of its own, before the others.
+TEST_F(GodotExtension, a_surface_of_which_nothing_is_left_keeps_its_number) {
+  constexpr double kWidth = 0.5;
+  const Arguments blades = stroke(kWidth);
+  std::vector<std::uint32_t>& submeshes = character_.meshes[0].triangle_submesh;
+  const auto is_left = [](const Character& character) {
+    const Mesh& mesh = character.meshes[0];
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+      if (mesh.triangle_submesh[t] == 0 && !is_retired(mesh.triangles[t])) return true;
+    return false;
+  };
+  std::shared_ptr<const Character> wanted;
+  for (std::size_t alone = 0; alone < submeshes.size() && wanted == nullptr; ++alone) {
+    submeshes.assign(submeshes.size(), 1);
+    submeshes[alone] = 0;
+    auto model = TornModel::create(std::make_shared<const Character>(as_attached(character_)));
+    ASSERT_TRUE(model->tear(pose_, blades_, {kWidth, Layers::nearest, 0.0}));
+    if (!is_left(model->character())) wanted = std::make_shared<Character>(model->character());
+  }
+  ASSERT_NE(wanted, nullptr);
+  auto* const mesh = new ArrayMesh;
+  for (std::uint32_t s = 0; s < 2; ++s)
+    mesh->surfaces.push_back({arrays_of(character_.meshes[0], s), of(new Material), 0, 3});
+  const Object* const material = std::get<Reference>(mesh->surfaces[1].material.data).get();
+  instance_->mesh = of(mesh);
+  ASSERT_TRUE(succeeds("attach", {of(instance_.get())})) << error();
+  ASSERT_TRUE(succeeds("tear", blades));
+  frame();
+  expect_drawn(*wanted);
+  const auto* const now =
+      dynamic_cast<const ArrayMesh*>(std::get<Reference>(instance_->mesh.data).get());
+  EXPECT_TRUE(drawn()[0].empty());
+  EXPECT_EQ(std::get<Reference>(now->surfaces[1].material.data).get(), material);
+  EXPECT_FALSE(numbers<std::int32_t>((*std::get<List>(now->surfaces[0].arrays.data))[12]).empty())
+      << "Godot takes no surface without triangles";
+}
+
 /// At rest, where interpolated vertices stand exactly on the plane.
 TEST_F(GodotExtension, a_cut_is_a_plane_of_the_world_where_the_instance_is_scaled) {
   pose_ = *rest_pose(character_);
