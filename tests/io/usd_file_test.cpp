@@ -284,6 +284,53 @@ TEST(UsdFile, keys_at_times_of_their_own_make_no_flood_of_samples) {
   EXPECT_EQ(refused.error().code(), StatusCode::limit_exceeded) << refused.error().text();
 }
 
+/// Keys of one bone make samples of all bones that the clip moves, and so do those of one weight.
+TEST(UsdFile, samples_are_counted_as_they_are_written) {
+  const auto channel = [](ChannelTarget target, std::uint32_t index, std::uint32_t width,
+                          int keys) {
+    Channel made{target, index, width, Interpolation::linear, {}, {}};
+    for (int key = 0; key < keys; ++key) {
+      made.times.push_back(static_cast<float>(key) / 32.0f);
+      made.values.insert(made.values.end(), width - 1, 0.0f);
+      made.values.push_back(1);
+    }
+    return made;
+  };
+  const auto clip_of = [](std::vector<Channel> channels) {
+    float duration = 0;
+    for (const Channel& of : channels) duration = std::max(duration, of.times.back());
+    return Clip{"Clip", duration, std::move(channels)};
+  };
+  Character character = test::make_tube(4, 5, 1000);
+  character.clips.clear();
+  std::vector<Channel> channels;
+  for (std::uint32_t bone = 0; bone < 1000; ++bone)
+    channels.push_back(channel(ChannelTarget::translation, bone, 3, 1));
+  channels.push_back(channel(ChannelTarget::rotation, 7, 4, 17'000));
+  character.clips = {clip_of(channels)};
+  const auto bones = usd_layer(character, {});
+  ASSERT_FALSE(bones);
+  EXPECT_EQ(bones.error().code(), StatusCode::limit_exceeded);
+  EXPECT_THAT(bones.error().text(), HasSubstr("1000 values at 17000 times"));
+
+  channels.back() = channel(ChannelTarget::rotation, 7, 4, 400);
+  character.clips.assign(50, clip_of(channels));
+  const auto clips = usd_layer(character, {});  // each of them has 402,000
+  ASSERT_FALSE(clips);
+  EXPECT_THAT(clips.error().text(), HasSubstr("clips before it 16"));
+  character.clips.resize(1);
+  EXPECT_TRUE(usd_layer(character, {}));
+
+  Character face = test::make_sheet(2);
+  face.rest_morph_weights.assign(1000, 0.0f);
+  face.meshes[0].morph_targets.assign(
+      1000, {"shape", std::vector<Vec3f>(face.meshes[0].positions.size(), Vec3f::Zero()), {}, {}});
+  face.clips = {clip_of({channel(ChannelTarget::morph_weights, 3, 1, 17'000)})};
+  const auto weights = usd_layer(face, {});
+  ASSERT_FALSE(weights);
+  EXPECT_THAT(weights.error().text(), HasSubstr("1000 values at 17000 times"));
+}
+
 TEST(UsdFile, faults_are_named) {
   const Character character = test::make_tube(4, 5, 2);
   SaveOptions options;
