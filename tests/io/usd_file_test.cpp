@@ -422,6 +422,32 @@ TEST(UsdFile, materials_become_preview_surfaces) {
                     HasSubstr("inputs:bias = (0.25, 0.25, 0.25, 0)")));
 }
 
+TEST(UsdFile, the_folder_of_textures_is_made_and_taken_back_only_where_it_was_absent) {
+  const auto loaded = everything().load();
+  ASSERT_TRUE(loaded) << loaded.error().text();
+  const test::TemporaryFolder folder;
+  const auto save = [&](const char* name) {
+    return save_usd(folder.path() / name, *loaded->character, *loaded);
+  };
+  // A folder that has the name of the file makes a save fail when textures are already staged.
+  for (const char* const name : {"absent.usda", "empty.usda", "link.usda"})
+    std::filesystem::create_directory(folder.path() / name);
+  std::filesystem::create_directory(folder.path() / "empty_textures");
+  std::filesystem::create_directory(folder.path() / "elsewhere");
+  std::filesystem::create_directory_symlink("elsewhere", folder.path() / "link_textures");
+  for (const char* const name : {"absent.usda", "empty.usda", "link.usda"})
+    EXPECT_EQ(save(name).error().code(), StatusCode::file_unreadable);
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "absent_textures"));
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path() / "empty_textures"));
+  EXPECT_TRUE(std::filesystem::is_symlink(folder.path() / "link_textures"));
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path() / "elsewhere"));
+
+  std::filesystem::remove(folder.path() / "link.usda");
+  ASSERT_TRUE(save("link.usda"));
+  EXPECT_TRUE(std::filesystem::is_symlink(folder.path() / "link_textures"));
+  EXPECT_FALSE(std::filesystem::is_empty(folder.path() / "elsewhere"));
+}
+
 TEST(UsdFile, moved_textures_lie_where_gltf_puts_them) {
   const auto loaded = everything().load();
   ASSERT_TRUE(loaded) << loaded.error().text();
@@ -447,6 +473,17 @@ TEST(UsdFile, moved_textures_lie_where_gltf_puts_them) {
     EXPECT_NEAR(std::sin(angle) * s + std::cos(angle) * t + shift[1],
                 1 - static_cast<double>(image.y()), 1e-5);
   }
+}
+
+TEST(UsdFile, a_package_of_more_files_than_a_zip_counts_is_refused) {
+  UsdLayer layer;
+  for (int i = 0; i < 65'534; ++i) layer.textures.push_back({"t" + std::to_string(i), {}});
+  EXPECT_TRUE(usdz_package(layer, "torn.usda")) << "65,535 with the text";
+  layer.textures.push_back({"one more", {}});
+  const auto refused = usdz_package(layer, "torn.usda");
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code(), StatusCode::limit_exceeded);
+  EXPECT_THAT(refused.error().text(), HasSubstr("65535 files"));
 }
 
 std::uint32_t number_at(const std::vector<std::byte>& bytes, std::size_t at, std::size_t size) {
