@@ -29,18 +29,19 @@ std::string plain_stem(const std::filesystem::path& file) {
   return stem;
 }
 
-/// The folder of a layer's textures, which is made if it is absent, and is gone again if it is
-/// still empty at the end.
+/// The folder of a layer's textures, which is made if it is absent. One that was made is gone again
+/// if it is still empty at the end.
 class TexturesFolder {
  public:
   explicit TexturesFolder(std::filesystem::path folder) : folder_(std::move(folder)) {
     std::error_code error;
-    std::filesystem::create_directory(folder_, error);
+    is_made_ = std::filesystem::create_directory(folder_, error);
     if (error || !std::filesystem::is_directory(folder_, error))
       status_ = Status::failure(StatusCode::file_unreadable, kNone,
                                 "cannot make the folder '%.200s'", folder_.c_str());
   }
   ~TexturesFolder() {
+    if (!is_made_) return;
     std::error_code error;
     std::filesystem::remove(folder_, error);  // of a folder with files it fails
   }
@@ -51,6 +52,7 @@ class TexturesFolder {
 
  private:
   std::filesystem::path folder_;
+  bool is_made_ = false;
   Status status_;
 };
 

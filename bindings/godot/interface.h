@@ -125,6 +125,8 @@ struct Host {
   void* (*packed_color_array_operator_index)(void* array, std::int64_t index);
   void* (*classdb_construct_object)(const void* class_name);
   void (*object_set_instance)(void* object, const void* class_name, void* instance);
+  std::uint64_t (*object_get_instance_id)(const void* object);
+  void* (*object_get_instance_from_id)(std::uint64_t id);  ///< Null: it is gone.
   void (*classdb_register_extension_class2)(void* library, const void* name, const void* parent,
                                             const ClassInfo* info);
   void (*classdb_register_extension_class_method)(void* library, const void* class_name,
@@ -162,6 +164,8 @@ void for_each_function(HostType& host, const Visit& visit) {
   SUNDER_GODOT_FUNCTION(packed_color_array_operator_index);
   SUNDER_GODOT_FUNCTION(classdb_construct_object);
   SUNDER_GODOT_FUNCTION(object_set_instance);
+  SUNDER_GODOT_FUNCTION(object_get_instance_id);
+  SUNDER_GODOT_FUNCTION(object_get_instance_from_id);
   SUNDER_GODOT_FUNCTION(classdb_register_extension_class2);
   SUNDER_GODOT_FUNCTION(classdb_register_extension_class_method);
   SUNDER_GODOT_FUNCTION(classdb_register_extension_class_signal);

@@ -50,6 +50,8 @@ SUNDER_SAME_FUNCTION(variant_get_indexed, GDExtensionInterfaceVariantGetIndexed)
 SUNDER_SAME_FUNCTION(variant_set_indexed, GDExtensionInterfaceVariantSetIndexed);
 SUNDER_SAME_FUNCTION(classdb_construct_object, GDExtensionInterfaceClassdbConstructObject);
 SUNDER_SAME_FUNCTION(object_set_instance, GDExtensionInterfaceObjectSetInstance);
+SUNDER_SAME_FUNCTION(object_get_instance_id, GDExtensionInterfaceObjectGetInstanceId);
+SUNDER_SAME_FUNCTION(object_get_instance_from_id, GDExtensionInterfaceObjectGetInstanceFromId);
 SUNDER_SAME_FUNCTION(classdb_register_extension_class2,
                      GDExtensionInterfaceClassdbRegisterExtensionClass2);
 SUNDER_SAME_FUNCTION(classdb_register_extension_class_method,

@@ -1,6 +1,7 @@
 #include "bindings/godot/mesh_arrays.h"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <span>
 
@@ -39,6 +40,17 @@ void append(std::vector<float>& all, const std::vector<float>& own, std::size_t 
 
 std::string at_surface(std::int64_t surface, const std::string& text) {
   return "surface " + std::to_string(surface) + ": " + text;
+}
+
+/// What a surface is made of if not of triangles; null if it is, or if this kind of mesh does not
+/// say it.
+const char* primitives_of(const Variant& mesh, std::int64_t surface) {
+  constexpr std::array<const char*, 5> kNames = {"points", "lines", "a line strip", nullptr,
+                                                 "a triangle strip"};  // Mesh.PrimitiveType
+  const Variant type = mesh.call("surface_get_primitive_type", Variant(surface));
+  if (type.is_nil()) return nullptr;
+  const auto number = static_cast<std::uint64_t>(type.integer());
+  return number < kNames.size() ? kNames[number] : "unknown primitives";
 }
 
 /// What a surface lacks of the last ones, if those before it had more.
@@ -114,6 +126,8 @@ std::string MeshArrays::read(const Variant& mesh, std::uint32_t slot_count) {
     return "the mesh has blend shapes, which are not supported";
   const std::int64_t surfaces = mesh.call("get_surface_count").integer();
   for (std::int64_t surface = 0; surface < surfaces; ++surface) {
+    if (const char* const primitives = primitives_of(mesh, surface); primitives != nullptr)
+      return at_surface(surface, std::string("it is made of ") + primitives + ", not of triangles");
     const Variant arrays = mesh.call("surface_get_arrays", Variant(surface));
     std::string fault = read_surface(arrays, surface, slot_count);
     if (!fault.empty()) return at_surface(surface, fault);
@@ -236,7 +250,10 @@ Variant surface_arrays(const sunder_mesh& mesh, std::uint32_t submesh, std::uint
       indices.push_back(static_cast<std::int32_t>(place_of[vertex]));
     }
   }
-  if (indices.empty()) return {};
+  if (indices.empty()) {  // a host refuses a surface without triangles
+    vertices = {0};
+    indices = {0, 0, 0};
+  }
   Variant arrays = Variant::empty(Type::array);
   arrays.call("resize", Variant(std::int64_t{kArrayCount}));
   set_gathered(arrays, kVertex, Type::packed_vector3, mesh.positions, 3, 3, vertices);

@@ -35,8 +35,9 @@ class MeshArrays {
   std::vector<sunder_submesh> submeshes_;
 };
 
-/// The arrays of a surface: one submesh of a torn mesh with the vertices that it uses. Null if it
-/// has no triangle.
+/// The arrays of a surface: one submesh of a torn mesh with the vertices that it uses. Without a
+/// triangle it has one of no area, because surfaces are counted: materials of later ones belong to
+/// their numbers.
 /// @param influences  4 or 8 per vertex; the largest, renormalised.
 [[nodiscard]] Variant surface_arrays(const sunder_mesh& mesh, std::uint32_t submesh,
                                      std::uint32_t influences);

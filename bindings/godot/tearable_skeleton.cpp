@@ -1,6 +1,7 @@
 #include "bindings/godot/tearable_skeleton.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace sunder::godot {
@@ -23,6 +24,28 @@ void set(double (&to)[3], const Vector3& from) {
   to[2] = static_cast<double>(from.z);
 }
 
+Vector3 to_local(const Variant& node, const Vector3& place) {
+  return node.call("to_local", Variant(place)).vector3();
+}
+
+sunder_blade blade(const Variant& mesh_instance, const Vector3& base, const Vector3& tip) {
+  sunder_blade blade = {};
+  set(blade.base, to_local(mesh_instance, base));
+  set(blade.tip, to_local(mesh_instance, tip));
+  return blade;
+}
+
+/// A plane's normal goes to a node's space by the transposed basis: n . (M x) = (M^T n) . x.
+void set_local_normal(double (&to)[3], const Vector3& normal, const Transform& world_from_local) {
+  const std::array<float, 3> world = {normal.x, normal.y, normal.z};
+  for (std::size_t column = 0; column < 3; ++column) {
+    to[column] = 0;
+    for (std::size_t row = 0; row < 3; ++row)
+      to[column] += static_cast<double>(world_from_local.basis[3 * row + column]) *
+                    static_cast<double>(world[row]);
+  }
+}
+
 sunder_tear_options gap(double width, double wall_depth) {
   sunder_tear_options options = sunder_default_tear_options();
   options.width = width;
@@ -42,47 +65,44 @@ bool TearableSkeleton::check(sunder_status status) {
   return fail(sunder_last_error());
 }
 
-void TearableSkeleton::release() {
-  if (scene_ != 0) sunder_destroy_scene(scene_);
-  if (asset_ != 0) sunder_destroy_asset(asset_);
-  if (character_ != 0) sunder_destroy_character(character_);
-  scene_ = asset_ = character_ = 0;
-  instance_ = 0;
-  undos_.clear();
-  mesh_instance_ = skeleton_node_ = source_mesh_ = Variant();
+Torn::~Torn() {
+  if (scene != 0) sunder_destroy_scene(scene);
+  if (asset != 0) sunder_destroy_asset(asset);
+  if (character != 0) sunder_destroy_character(character);
 }
 
 bool TearableSkeleton::attach(const Variant& mesh_instance) {
-  release();
-  if (mesh_instance.is_nil()) return true;
+  if (mesh_instance.is_nil()) {
+    torn_.reset();
+    return true;
+  }
   const Variant mesh = mesh_instance.call("get_mesh");
   const Variant skeleton =
       mesh_instance.call("get_node_or_null", mesh_instance.call("get_skeleton_path"));
-  skeleton_ = SkeletonReader();
-  if (std::string fault = skeleton_.read(skeleton, mesh_instance.call("get_skin")); !fault.empty())
+  auto torn = std::make_unique<Torn>();
+  if (std::string fault = torn->skeleton.read(skeleton, mesh_instance.call("get_skin"));
+      !fault.empty())
     return fail(std::move(fault));
   MeshArrays arrays;
-  if (std::string fault = arrays.read(mesh, skeleton_.skin().slot_count); !fault.empty())
+  if (std::string fault = arrays.read(mesh, torn->skeleton.skin().slot_count); !fault.empty())
     return fail(std::move(fault));
-  if (!create(arrays)) {
-    release();
-    return false;
-  }
-  surface_count_ = arrays.mesh().submesh_count;
-  mesh_instance_ = mesh_instance;
-  skeleton_node_ = skeleton;
-  source_mesh_ = mesh;
+  if (!create(arrays, *torn)) return false;
+  torn->surface_count = arrays.mesh().submesh_count;
+  torn->mesh_instance = NodeReference(mesh_instance);
+  torn->skeleton_node = NodeReference(skeleton);
+  torn->source_mesh = mesh;
+  torn_ = std::move(torn);
   self().call("set_process", Variant(true));
   return true;
 }
 
-bool TearableSkeleton::create(const MeshArrays& arrays) {
+bool TearableSkeleton::create(const MeshArrays& arrays, Torn& torn) {
   const sunder_mesh mesh = arrays.mesh();
-  const sunder_skin skin = skeleton_.skin();
+  const sunder_skin skin = torn.skeleton.skin();
   sunder_character_data data = sunder_default_character_data();
   data.name = "character";
-  data.bones = skeleton_.bones().data();
-  data.bone_count = static_cast<std::uint32_t>(skeleton_.bones().size());
+  data.bones = torn.skeleton.bones().data();
+  data.bone_count = static_cast<std::uint32_t>(torn.skeleton.bones().size());
   data.skins = &skin;
   data.skin_count = 1;
   data.meshes = &mesh;
@@ -92,73 +112,76 @@ bool TearableSkeleton::create(const MeshArrays& arrays) {
   sunder_scene_options of_scene = sunder_default_scene_options();
   of_scene.threads = 1;
   return check(sunder_check_abi(SUNDER_C_VERSION, 0)) &&
-         check(sunder_create_character(&data, &character_)) &&
-         check(sunder_create_asset(character_, &of_asset, &asset_)) &&
-         check(sunder_create_scene(&of_scene, &scene_)) &&
-         check(sunder_spawn(scene_, asset_, nullptr, &instance_)) &&
-         check(sunder_prepare_to_tear(scene_, instance_));
+         check(sunder_create_character(&data, &torn.character)) &&
+         check(sunder_create_asset(torn.character, &of_asset, &torn.asset)) &&
+         check(sunder_create_scene(&of_scene, &torn.scene)) &&
+         check(sunder_spawn(torn.scene, torn.asset, nullptr, &torn.instance)) &&
+         check(sunder_prepare_to_tear(torn.scene, torn.instance));
 }
 
-Vector3 TearableSkeleton::to_local(const Vector3& place) const {
-  return mesh_instance_.call("to_local", Variant(place)).vector3();
-}
-
-sunder_blade TearableSkeleton::blade(const Vector3& base, const Vector3& tip) const {
-  sunder_blade blade = {};
-  set(blade.base, to_local(base));
-  set(blade.tip, to_local(tip));
-  return blade;
+Variant TearableSkeleton::find_mesh_instance() {
+  if (torn_ == nullptr) {
+    fail("nothing is attached");
+    return {};
+  }
+  Variant found = torn_->mesh_instance.find();
+  if (found.is_nil()) fail("the mesh instance is gone");
+  return found;
 }
 
 bool TearableSkeleton::tear(const Variant& bases, const Variant& tips, double width,
                             double wall_depth) {
-  if (scene_ == 0) return fail("nothing is attached");
+  const Variant mesh_instance = find_mesh_instance();
+  if (mesh_instance.is_nil()) return false;
   const std::vector<Vector3> from = places_of(bases), to = places_of(tips);
   if (from.size() != to.size())
     return fail("there are " + std::to_string(from.size()) + " bases and " +
                 std::to_string(to.size()) + " tips");
   std::vector<sunder_blade> blades;
-  for (std::size_t i = 0; i < from.size(); ++i) blades.push_back(blade(from[i], to[i]));
+  for (std::size_t i = 0; i < from.size(); ++i)
+    blades.push_back(blade(mesh_instance, from[i], to[i]));
   const sunder_tear_options options = gap(width, wall_depth);
-  return check(sunder_submit_tear(scene_, instance_, blades.data(),
+  return check(sunder_submit_tear(torn_->scene, torn_->instance, blades.data(),
                                   static_cast<std::uint32_t>(blades.size()), &options, 0, nullptr));
 }
 
 bool TearableSkeleton::begin_stroke(const Vector3& base, const Vector3& tip, double width,
                                     double wall_depth) {
-  if (scene_ == 0) return fail("nothing is attached");
-  const sunder_blade first = blade(base, tip);
+  const Variant mesh_instance = find_mesh_instance();
+  if (mesh_instance.is_nil()) return false;
+  const sunder_blade first = blade(mesh_instance, base, tip);
   const sunder_tear_options options = gap(width, wall_depth);
-  return check(sunder_submit_begin_stroke(scene_, instance_, &first, &options, nullptr, nullptr));
+  return check(sunder_submit_begin_stroke(torn_->scene, torn_->instance, &first, &options, nullptr,
+                                          nullptr));
 }
 
 bool TearableSkeleton::extend_stroke(const Vector3& base, const Vector3& tip, double seconds) {
-  if (scene_ == 0) return fail("nothing is attached");
-  const sunder_blade next = blade(base, tip);
-  return check(sunder_submit_extend_stroke(scene_, instance_, &next, seconds, nullptr));
+  const Variant mesh_instance = find_mesh_instance();
+  if (mesh_instance.is_nil()) return false;
+  const sunder_blade next = blade(mesh_instance, base, tip);
+  return check(sunder_submit_extend_stroke(torn_->scene, torn_->instance, &next, seconds, nullptr));
 }
 
 bool TearableSkeleton::end_stroke() {
-  if (scene_ == 0) return fail("nothing is attached");
-  return check(sunder_submit_end_stroke(scene_, instance_, nullptr));
+  if (torn_ == nullptr) return fail("nothing is attached");
+  return check(sunder_submit_end_stroke(torn_->scene, torn_->instance, nullptr));
 }
 
 bool TearableSkeleton::cut(const Vector3& point, const Vector3& normal, bool caps) {
-  if (scene_ == 0) return fail("nothing is attached");
+  const Variant mesh_instance = find_mesh_instance();
+  if (mesh_instance.is_nil()) return false;
   sunder_cut plane = sunder_default_cut();
-  const Vector3 at = to_local(point);
-  const Vector3 end = to_local({point.x + normal.x, point.y + normal.y, point.z + normal.z});
-  set(plane.point, at);
-  set(plane.normal, {end.x - at.x, end.y - at.y, end.z - at.z});
+  set(plane.point, to_local(mesh_instance, point));
+  set_local_normal(plane.normal, normal, mesh_instance.call("get_global_transform").transform());
   plane.has_caps = caps ? 1 : 0;
-  return check(sunder_submit_cut(scene_, instance_, &plane, 0, nullptr));
+  return check(sunder_submit_cut(torn_->scene, torn_->instance, &plane, 0, nullptr));
 }
 
 bool TearableSkeleton::undo() {
-  if (scene_ == 0) return fail("nothing is attached");
+  if (torn_ == nullptr) return fail("nothing is attached");
   sunder_command command = 0;
-  if (!check(sunder_submit_undo(scene_, instance_, &command))) return false;
-  undos_.push_back(command);
+  if (!check(sunder_submit_undo(torn_->scene, torn_->instance, &command))) return false;
+  torn_->undos.push_back(command);
   return true;
 }
 
@@ -166,7 +189,7 @@ std::string TearableSkeleton::get_log() {
   sunder_bytes bytes = 0;
   const std::uint8_t* data = nullptr;
   std::uint64_t size = 0;
-  if (scene_ == 0 || !check(sunder_get_log(scene_, instance_, &bytes)) ||
+  if (torn_ == nullptr || !check(sunder_get_log(torn_->scene, torn_->instance, &bytes)) ||
       !check(sunder_get_bytes(bytes, &data, &size)))
     return {};
   std::string text(reinterpret_cast<const char*>(data), static_cast<std::size_t>(size));
@@ -175,23 +198,33 @@ std::string TearableSkeleton::get_log() {
 }
 
 void TearableSkeleton::notify(std::int32_t what) {
-  if (what == kNotificationProcess && scene_ != 0)
+  if (what == kNotificationProcess && torn_ != nullptr)
     process(self().call("get_process_delta_time").real());
 }
 
+void TearableSkeleton::signal_failure(const std::string& error) {
+  error_ = error;
+  self().call("emit_signal", Variant("failed"), Variant(error.c_str()));
+}
+
 void TearableSkeleton::process(double seconds) {
-  const std::int64_t bones = skeleton_node_.call("get_bone_count").integer();  // 0: it is gone
-  if (bones != static_cast<std::int64_t>(skeleton_.bones().size())) {
-    release();
-    fail("the skeleton is gone, or has other bones");
-    self().call("emit_signal", Variant("failed"), Variant(error_.c_str()));
+  const Variant skeleton = torn_->skeleton_node.find();
+  if (skeleton.is_nil() || skeleton.call("get_bone_count").integer() !=
+                               static_cast<std::int64_t>(torn_->skeleton.bones().size())) {
+    torn_.reset();
+    signal_failure("the skeleton is gone, or has other bones");
     return;
   }
-  skeleton_.read_pose(skeleton_node_, pose_);
-  if (!check(sunder_set_matrices(scene_, instance_, pose_.data(),
+  if (find_mesh_instance().is_nil()) {
+    torn_.reset();
+    signal_failure(std::string(error_));
+    return;
+  }
+  torn_->skeleton.read_pose(skeleton, pose_);
+  if (!check(sunder_set_matrices(torn_->scene, torn_->instance, pose_.data(),
                                  static_cast<std::uint32_t>(pose_.size() / 12), nullptr)) ||
-      !check(sunder_update(scene_, std::max(seconds, 0.0)))) {
-    self().call("emit_signal", Variant("failed"), Variant(error_.c_str()));
+      !check(sunder_update(torn_->scene, std::max(seconds, 0.0)))) {
+    signal_failure(std::string(error_));
     return;
   }
   if (report_results()) write_mesh();
@@ -201,52 +234,56 @@ bool TearableSkeleton::report_results() {
   const sunder_result* results = nullptr;
   std::uint32_t count = 0;
   bool has_changed = false;
-  if (!check(sunder_get_results(scene_, &results, &count))) return false;
-  // A script that hears a signal may submit what makes the view of results stale.
+  if (!check(sunder_get_results(torn_->scene, &results, &count))) return false;
+  // A script that hears a signal may submit what makes the view of results stale, or attach
+  // another mesh.
+  const sunder_scene scene = torn_->scene;
   const std::vector<sunder_result> kept(results, results + count);
   std::vector<std::string> errors;
-  for (const sunder_result& result : kept) errors.emplace_back(result.error);
-  for (std::size_t i = 0; i < kept.size(); ++i) {
-    if (kept[i].status != SUNDER_OK) {
-      error_ = errors[i];
-      self().call("emit_signal", Variant("failed"), Variant(errors[i].c_str()));
-      continue;
-    }
-    const bool is_undo = std::erase(undos_, kept[i].command) > 0;
-    has_changed |= is_undo || kept[i].vertices_added + kept[i].triangles_added > 0 ||
-                   kept[i].triangles_retired > 0;
-    self().call("emit_signal", Variant("torn"), Variant(std::int64_t{kept[i].faces_crossed}),
-                Variant(kept[i].length));
+  for (const sunder_result& result : kept) {
+    errors.emplace_back(result.error);
+    if (result.status != SUNDER_OK) continue;
+    const bool is_undo = std::erase(torn_->undos, result.command) > 0;
+    has_changed |= is_undo || result.vertices_added + result.triangles_added > 0 ||
+                   result.triangles_retired > 0;
   }
-  return has_changed && scene_ != 0;
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    if (kept[i].status != SUNDER_OK)
+      signal_failure(errors[i]);
+    else
+      self().call("emit_signal", Variant("torn"), Variant(std::int64_t{kept[i].faces_crossed}),
+                  Variant(kept[i].length));
+  }
+  return has_changed && torn_ != nullptr && torn_->scene == scene;
 }
 
 Variant TearableSkeleton::material_of(const sunder_submesh& submesh, std::uint32_t index) const {
-  if (index >= surface_count_ && !wound_material_.is_nil()) return wound_material_;
-  const std::uint32_t surface = index < surface_count_ ? index : submesh.material;
-  if (surface >= surface_count_) return {};
-  return source_mesh_.call("surface_get_material", Variant(std::int64_t{surface}));
+  const std::uint32_t count = torn_->surface_count;
+  if (index >= count && !wound_material_.is_nil()) return wound_material_;
+  const std::uint32_t surface = index < count ? index : submesh.material;
+  if (surface >= count) return {};
+  return torn_->source_mesh.call("surface_get_material", Variant(std::int64_t{surface}));
 }
 
 void TearableSkeleton::write_mesh() {
   sunder_mesh mesh = {};
-  if (!check(sunder_get_instance_mesh(scene_, instance_, 0, &mesh))) return;
+  const Variant mesh_instance = find_mesh_instance();
+  if (mesh_instance.is_nil() ||
+      !check(sunder_get_instance_mesh(torn_->scene, torn_->instance, 0, &mesh)))
+    return;
   const Name array_mesh("ArrayMesh");
   const Variant drawn = Variant::object(host.classdb_construct_object(array_mesh.get()));
   const Variant no_shapes = Variant::empty(Type::array),
                 no_levels = Variant::empty(Type::dictionary);
   const std::uint32_t influences = most_influences(mesh) > 4 ? 8 : 4;
   const Variant flags(influences > 4 ? kEightInfluences : std::int64_t{0});
-  std::int64_t surface = 0;
   for (std::uint32_t s = 0; s < mesh.submesh_count; ++s) {
-    const Variant arrays = surface_arrays(mesh, s, influences);
-    if (arrays.is_nil()) continue;
-    drawn.call("add_surface_from_arrays", Variant(kTriangles), arrays, no_shapes, no_levels, flags);
+    drawn.call("add_surface_from_arrays", Variant(kTriangles), surface_arrays(mesh, s, influences),
+               no_shapes, no_levels, flags);
     if (const Variant material = material_of(mesh.submeshes[s], s); !material.is_nil())
-      drawn.call("surface_set_material", Variant(surface), material);
-    ++surface;
+      drawn.call("surface_set_material", Variant(std::int64_t{s}), material);
   }
-  mesh_instance_.call("set_mesh", drawn);
+  mesh_instance.call("set_mesh", drawn);
 }
 
 }  // namespace sunder::godot

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <sunder_c.h>
 #include <vector>
@@ -10,6 +11,24 @@
 #include "bindings/godot/variant.h"
 
 namespace sunder::godot {
+
+/// What a node tears: the character of a MeshInstance3D, in a scene of its own.
+struct Torn {
+  Torn() = default;
+  ~Torn();
+  Torn(const Torn&) = delete;
+  Torn& operator=(const Torn&) = delete;
+
+  NodeReference mesh_instance, skeleton_node;
+  Variant source_mesh;
+  SkeletonReader skeleton;
+  std::uint32_t surface_count = 0;  ///< Of the source.
+  sunder_character character = 0;
+  sunder_asset asset = 0;
+  sunder_scene scene = 0;
+  sunder_instance instance = 0;
+  std::vector<sunder_command> undos;  ///< Submitted, without a result yet.
+};
 
 /// The node TearableSkeleton3D: tears the mesh of a MeshInstance3D in the pose in which its
 /// Skeleton3D stands. Godot draws and skins; after an operation it gets a new mesh. Places are in
@@ -21,14 +40,13 @@ class TearableSkeleton {
 
   /// @param object  the node of the host.
   explicit TearableSkeleton(void* object) : self_(object) {}
-  ~TearableSkeleton() { release(); }
   TearableSkeleton(const TearableSkeleton&) = delete;
   TearableSkeleton& operator=(const TearableSkeleton&) = delete;
 
   // What scripts call. Those that return a bool say in get_error() why it is false.
 
   /// Reads the mesh, the skin and the skeleton of a MeshInstance3D; null lets go of it. The
-  /// instance keeps the mesh that it has.
+  /// instance keeps the mesh that it has. Where it fails, what was attached stays so.
   bool attach(const Variant& mesh_instance);
   /// Tears along a blade with pairs of base and tip, in the next frame.
   bool tear(const Variant& bases, const Variant& tips, double width, double wall_depth);
@@ -49,12 +67,12 @@ class TearableSkeleton {
   void notify(std::int32_t what);
 
  private:
-  void release();
-  bool create(const MeshArrays& arrays);
+  bool create(const MeshArrays& arrays, Torn& torn);
   bool fail(std::string text);
   bool check(sunder_status status);
-  [[nodiscard]] sunder_blade blade(const Vector3& base, const Vector3& tip) const;
-  [[nodiscard]] Vector3 to_local(const Vector3& place) const;
+  /// @return nil, with an error, if nothing is attached or it is gone.
+  [[nodiscard]] Variant find_mesh_instance();
+  void signal_failure(const std::string& error);
   void process(double seconds);
   /// @return whether the mesh changed.
   bool report_results();
@@ -63,14 +81,8 @@ class TearableSkeleton {
   [[nodiscard]] Variant self() const { return Variant::object(self_); }
 
   void* self_;
-  Variant mesh_instance_, skeleton_node_, source_mesh_, wound_material_;
-  SkeletonReader skeleton_;
-  std::uint32_t surface_count_ = 0;
-  sunder_character character_ = 0;
-  sunder_asset asset_ = 0;
-  sunder_scene scene_ = 0;
-  sunder_instance instance_ = 0;
-  std::vector<sunder_command> undos_;  ///< Submitted, without a result yet.
+  Variant wound_material_;
+  std::unique_ptr<Torn> torn_;
   std::vector<double> pose_;
   std::string error_;
 };

@@ -39,16 +39,17 @@ Variant Variant::packed(Type type, const void* elements, std::size_t count, std:
   return result;
 }
 
-bool Variant::is_nil() const {
-  if (type() != Type::object) return type() == Type::nil;
-  return plain<void*>(Type::object) == nullptr;
-}
-
 template <class Value>
 Value Variant::plain(Type of) const {
   Value value = {};
   if (type() == of) host.get_variant_to_type_constructor(of)(&value, const_cast<void*>(get()));
   return value;
+}
+
+void* Variant::object() const { return plain<void*>(Type::object); }
+
+bool Variant::is_nil() const {
+  return type() == Type::object ? object() == nullptr : type() == Type::nil;
 }
 
 bool Variant::boolean() const { return plain<std::uint8_t>(Type::boolean) != 0; }
@@ -101,6 +102,16 @@ Variant Variant::at(std::int64_t index) const {
 void Variant::set(std::int64_t index, const Variant& value) {
   std::uint8_t is_valid = 0, is_out_of_range = 0;
   host.variant_set_indexed(&value_, index, value.get(), &is_valid, &is_out_of_range);
+}
+
+NodeReference::NodeReference(const Variant& node) {
+  if (void* const object = node.object(); object != nullptr)
+    id_ = host.object_get_instance_id(object);
+}
+
+Variant NodeReference::find() const {
+  void* const object = id_ == 0 ? nullptr : host.object_get_instance_from_id(id_);
+  return object == nullptr ? Variant() : Variant::object(object);
 }
 
 void* elements_of(Type type, void* array) {

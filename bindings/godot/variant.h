@@ -90,6 +90,7 @@ class Variant {
   [[nodiscard]] Vector3 vector3() const;
   [[nodiscard]] Transform transform() const;
   [[nodiscard]] std::string text() const;
+  [[nodiscard]] void* object() const;
   /// The numbers of a packed array. @param width  numbers per element.
   template <class Number>
   [[nodiscard]] std::vector<Number> numbers(Type type, std::size_t width = 1) const {
@@ -128,6 +129,20 @@ class Variant {
   void read_packed(Type type, std::size_t size, const Read& read) const;
 
   Opaque<24> value_;
+};
+
+/// A node that others may free at any time. A variant of a node is no longer valid then, and calls
+/// by it are not checked in exported games, so it is looked up before each use.
+class NodeReference {
+ public:
+  NodeReference() = default;
+  explicit NodeReference(const Variant& node);
+
+  /// Nil if the node is gone. Valid until scripts run.
+  [[nodiscard]] Variant find() const;
+
+ private:
+  std::uint64_t id_ = 0;
 };
 
 /// The first element of a packed array that is not empty.

@@ -26,7 +26,18 @@ void append(std::vector<float>& numbers, const Vec3f& vector) {
 
 }  // namespace
 
-std::vector<AnimationWriter::MovedBone> AnimationWriter::moved_bones(const Clip& clip) const {
+AnimationWriter::AnimationWriter(const Character& character, const Joints& joints,
+                                 const std::vector<std::string>& shapes, double codes_per_second,
+                                 const std::vector<Clip>& clips)
+    : character_(character), joints_(joints), shapes_(shapes) {
+  for (const std::string& shape : shapes)
+    if (!shape.empty()) written_shapes_.push_back(shape);
+  SampleCount samples;
+  for (const Clip& clip : clips)
+    animations_.push_back(animation_of(clip, codes_per_second, samples));
+}
+
+std::vector<AnimationWriter::MovedBone> AnimationWriter::moved_bones(const Clip& clip) {
   std::map<std::uint32_t, MovedBone> moved;
   for (const Channel& channel : clip.channels) {
     if (channel.target == ChannelTarget::morph_weights) continue;
@@ -41,16 +52,35 @@ std::vector<AnimationWriter::MovedBone> AnimationWriter::moved_bones(const Clip&
   return sorted;
 }
 
+AnimationWriter::Animation AnimationWriter::animation_of(const Clip& clip, double codes_per_second,
+                                                         SampleCount& samples) const {
+  Animation animation;
+  animation.moved = moved_bones(clip);
+  const auto times_of = [&](ChannelOf channel_of) {
+    std::vector<const Channel*> channels;
+    for (const MovedBone& bone : animation.moved)
+      if (bone.*channel_of != nullptr) channels.push_back(bone.*channel_of);
+    return sample_times(channels, codes_per_second, animation.moved.size(), samples);
+  };
+  animation.translation_times = times_of(&MovedBone::translation);
+  animation.rotation_times = times_of(&MovedBone::rotation);
+  animation.scale_times = times_of(&MovedBone::scale);
+  if (written_shapes_.empty()) return animation;
+  for (const Channel& channel : clip.channels)
+    if (channel.target == ChannelTarget::morph_weights) animation.weights.push_back(&channel);
+  animation.weight_times =
+      sample_times(animation.weights, codes_per_second, written_shapes_.size(), samples);
+  return animation;
+}
+
 template <class Value>
 void AnimationWriter::write_samples(UsdText& text, const char* head,
+                                    const std::vector<SampleTime>& times,
                                     const std::vector<MovedBone>& moved, ChannelOf channel_of,
                                     const Value& value) const {
-  std::vector<const Channel*> channels;
-  for (const MovedBone& bone : moved)
-    if (bone.*channel_of != nullptr) channels.push_back(bone.*channel_of);
   std::vector<std::uint32_t> cursors(moved.size(), 0);
   std::vector<float> numbers;
-  write_time_samples(text, head, sample_times(channels, rate_), [&](double seconds) {
+  write_time_samples(text, head, times, [&](double seconds) {
     numbers.clear();
     for (std::size_t i = 0; i < moved.size(); ++i) {
       BoneTransform bone = character_.skeleton.bones[moved[i].bone].rest;
@@ -62,40 +92,37 @@ void AnimationWriter::write_samples(UsdText& text, const char* head,
   });
 }
 
-void AnimationWriter::write_transforms(UsdText& text, const std::vector<MovedBone>& moved) const {
+void AnimationWriter::write_transforms(UsdText& text, const Animation& animation) const {
+  const std::vector<MovedBone>& moved = animation.moved;
   std::vector<std::string> paths;
   for (const MovedBone& bone : moved) paths.push_back(joints_.all()[joints_.moved(bone.bone)].path);
   text.line("uniform token[] joints = " + array_of(std::span<const std::string>(paths)));
-  write_samples(text, "float3[] translations", moved, &MovedBone::translation,
+  write_samples(text, "float3[] translations", animation.translation_times, moved,
+                &MovedBone::translation,
                 [](std::uint32_t, const BoneTransform& bone, std::vector<float>& numbers) {
                   append(numbers, bone.translation);
                 });
-  write_samples(text, "quatf[] rotations", moved, &MovedBone::rotation,
+  write_samples(text, "quatf[] rotations", animation.rotation_times, moved, &MovedBone::rotation,
                 [](std::uint32_t, const BoneTransform& bone, std::vector<float>& numbers) {
                   numbers.push_back(bone.rotation.w());
                   append(numbers, bone.rotation.vec());
                 });
-  write_samples(text, "half3[] scales", moved, &MovedBone::scale,
+  write_samples(text, "half3[] scales", animation.scale_times, moved, &MovedBone::scale,
                 [&](std::uint32_t index, const BoneTransform& bone, std::vector<float>& numbers) {
                   const Vec3f scale = bone.scale.cwiseQuotient(joints_.scale_below(index));
                   for (int i = 0; i < 3; ++i) numbers.push_back(nearest_half(scale[i]));
                 });
 }
 
-void AnimationWriter::write_weights(UsdText& text, const Clip& clip) const {
-  std::vector<std::string> names;
-  for (const std::string& shape : shapes_)
-    if (!shape.empty()) names.push_back(shape);
-  if (names.empty()) return;
-  text.line("uniform token[] blendShapes = " + array_of(std::span<const std::string>(names)));
-  std::vector<const Channel*> channels;
-  for (const Channel& channel : clip.channels)
-    if (channel.target == ChannelTarget::morph_weights) channels.push_back(&channel);
+void AnimationWriter::write_weights(UsdText& text, const Animation& animation) const {
+  if (written_shapes_.empty()) return;
+  text.line("uniform token[] blendShapes = " +
+            array_of(std::span<const std::string>(written_shapes_)));
   std::vector<float> weights, written;
-  write_time_samples(text, "float[] blendShapeWeights", sample_times(channels, rate_),
+  write_time_samples(text, "float[] blendShapeWeights", animation.weight_times,
                      [&](double seconds) {
                        weights = character_.rest_morph_weights;
-                       for (const Channel* const channel : channels)
+                       for (const Channel* const channel : animation.weights)
                          skinning::sample_channel(*channel, seconds, weights);
                        written.clear();
                        for (std::size_t i = 0; i < weights.size(); ++i)
@@ -105,14 +132,14 @@ void AnimationWriter::write_weights(UsdText& text, const Clip& clip) const {
 }
 
 void AnimationWriter::write(UsdText& text, const std::string& name,
-                            const std::vector<std::string>& metadata, const Clip& clip) const {
+                            const std::vector<std::string>& metadata, std::size_t clip) const {
+  const Animation& animation = animations_[clip];
   text.open_prim("SkelAnimation", name, metadata);
-  const std::vector<MovedBone> moved = moved_bones(clip);
-  if (moved.empty())
+  if (animation.moved.empty())
     text.line("uniform token[] joints = []");
   else
-    write_transforms(text, moved);
-  write_weights(text, clip);
+    write_transforms(text, animation);
+  write_weights(text, animation);
   text.close('}');
 }
 

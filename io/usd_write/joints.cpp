@@ -7,6 +7,7 @@
 
 #include <Eigen/LU>
 
+#include "core/internal/moved_bones.h"
 #include "io/gltf/decompose.h"
 #include "io/gltf_write/mesh_writer.h"
 #include "io/usd_write/half.h"
@@ -33,14 +34,6 @@ Vec3f beyond_halves(const Vec3f& scale) {
 bool has_inverse(const Affine3d& matrix) {
   const double size = matrix.linear().cwiseAbs().maxCoeff();
   return std::abs(matrix.linear().determinant()) > 1e-12 * size * size * size;
-}
-
-std::vector<bool> moved_bones(const Character& character) {
-  std::vector<bool> moved(character.skeleton.bones.size(), false);
-  for (const Clip& clip : character.clips)
-    for (const Channel& channel : clip.channels)
-      if (channel.target != ChannelTarget::morph_weights) moved[channel.index] = true;
-  return moved;
 }
 
 /// The corners of a box around the points that a skin moves.
@@ -105,7 +98,7 @@ class Joints::Builder {
   }
 
   void add_bones() {
-    const std::vector<bool> is_moved = moved_bones(character_);
+    const std::vector<bool> is_moved = bones_moved_by_clips(character_);
     const std::vector<Bone>& bones = character_.skeleton.bones;
     const bool has_roots = std::ranges::count(bones, kNone, &Bone::parent) > 1;
     const std::uint32_t root = has_roots ? add(kNone, "Root", Affine3d::Identity()) : kNone;

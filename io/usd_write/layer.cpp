@@ -45,10 +45,11 @@ class LayerWriter {
                       materials_scope = children_.add("Materials", "");
     Materials materials(character_, loaded_.source.get(), options_, path + "/" + materials_scope,
                         textures_folder_);
+    const AnimationWriter animations(character_, joints_, shapes_, rate_, clips_);
     write_stage();
     open_root();
     write_skeleton(path, skeleton, clips);
-    write_clips(clips);
+    write_clips(clips, animations);
     materials.write(text_);
     const MeshesWriter meshes(joints_, materials, shapes_, path + "/" + skeleton);
     for (std::uint32_t m = 0; m < character_.meshes.size(); ++m)
@@ -137,14 +138,12 @@ class LayerWriter {
     text_.close('}');
   }
 
-  void write_clips(const std::string& scope) {
+  void write_clips(const std::string& scope, const AnimationWriter& animations) {
     if (clips_.empty()) return;
-    const AnimationWriter animations(character_, joints_, shapes_, rate_);
     text_.line("");
     text_.open_prim("Scope", scope);
     for (std::size_t i = 0; i < clips_.size(); ++i)
-      animations.write(text_, clip_names_[i], display_name(clips_[i].name, clip_names_[i]),
-                       clips_[i]);
+      animations.write(text_, clip_names_[i], display_name(clips_[i].name, clip_names_[i]), i);
     text_.close('}');
   }
 

@@ -2,14 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cinttypes>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
 #include <utility>
-#include <zlib.h>
 
 #include "io/gltf/refusal.h"
 #include "io/gltf_write/mesh_writer.h"
+#include "io/usd_write/checksum.h"
 #include "io/usd_write/identifiers.h"
 
 namespace sunder::usd {
@@ -31,10 +32,9 @@ const char* wrap_name(BaseColour::Wrap wrap) {
 
 /// Of an image, in hexadecimal digits: a part of its name, so that a file of another model that has
 /// the name is very likely the same image.
-std::string checksum(const std::vector<std::byte>& bytes) {
-  const uLong sum = crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size());
+std::string content_digits(const std::vector<std::byte>& bytes) {
   std::array<char, 9> digits;
-  std::snprintf(digits.data(), digits.size(), "%08lx", sum);
+  std::snprintf(digits.data(), digits.size(), "%08" PRIx32, checksum(bytes));
   return digits.data();
 }
 
@@ -70,7 +70,7 @@ Materials::Materials(const Character& character, const SourceDocument* source,
     if (ending == nullptr) ++left_out_;
     file_of_.push_back(ending == nullptr ? std::string()
                                          : textures_folder + "/image_" + std::to_string(i) + "_" +
-                                               checksum(images_[i].bytes) + ending);
+                                               content_digits(images_[i].bytes) + ending);
   }
   is_image_written_.assign(images_.size(), false);
 }

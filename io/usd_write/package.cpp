@@ -4,15 +4,16 @@
 #include <limits>
 #include <span>
 #include <string_view>
-#include <zlib.h>
 
 #include "io/gltf/refusal.h"
+#include "io/usd_write/checksum.h"
 
 namespace sunder::usd {
 namespace {
 
 constexpr std::uint64_t kAlignment = 64;
 constexpr std::uint64_t kMostBytes = std::numeric_limits<std::uint32_t>::max();
+constexpr std::size_t kMostEntries = 65'535;
 constexpr std::uint16_t kVersion = 10;      // stored files need no later one
 constexpr std::uint16_t kNoDate = 0x0021;   // 1980-01-01, the first that there is
 constexpr std::uint16_t kPadding = 0x1986;  // an extra field that readers skip
@@ -22,6 +23,9 @@ constexpr std::uint64_t kExtraHeader = 4;
 class StoredZip {
  public:
   void add(const std::string& name, std::span<const std::byte> content) {
+    if (entries_.size() == kMostEntries)
+      gltf::refuse(StatusCode::limit_exceeded, kNone, "a USDZ package holds at most %zu files",
+                   kMostEntries);
     if (content.size() > kMostBytes) refuse_size();
     const Entry entry = {name, checksum(content), static_cast<std::uint32_t>(content.size()),
                          bytes_.size()};
@@ -65,11 +69,6 @@ class StoredZip {
 
   [[noreturn]] static void refuse_size() {
     gltf::refuse(StatusCode::limit_exceeded, kNone, "a USDZ package holds at most 4 GiB");
-  }
-
-  static std::uint32_t checksum(std::span<const std::byte> content) {
-    return static_cast<std::uint32_t>(
-        crc32_z(0, reinterpret_cast<const Bytef*>(content.data()), content.size()));
   }
 
   template <class Integer>

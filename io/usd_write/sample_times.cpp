@@ -160,16 +160,15 @@ class ThinnedTimes {
 /// Thins out what would be much.
 /// @throws gltf::Refusal  for more than memory should hold.
 void thin_out(std::span<const Channel* const> channels, std::vector<double>& seconds) {
-  constexpr std::size_t kFew = 100'000, kMost = std::size_t{1} << 24;
-  std::size_t densest = 0;
-  for (const Channel* const channel : channels) densest = std::max(densest, channel->times.size());
-  const std::size_t samples = seconds.size() * channels.size();
+  constexpr std::size_t kFew = 100'000;
+  std::size_t densest = 0, values = 0;
+  for (const Channel* const channel : channels) {
+    densest = std::max(densest, channel->times.size());
+    values += channel->target == ChannelTarget::morph_weights ? channel->width : 1;
+  }
+  const std::size_t samples = seconds.size() * values;
   if (samples <= kFew) return;
-  if (samples > kMost)
-    gltf::refuse(StatusCode::limit_exceeded, kNone,
-                 "a clip has %zu channels and keys at %zu times; USD would have %zu samples, more "
-                 "than %zu",
-                 channels.size(), seconds.size(), samples, kMost);
+  SampleCount().add(seconds.size(), values);
   if (seconds.size() <= 2 * densest) return;
   const ThinnedTimes thinned(channels, seconds);
   std::vector<double> kept;
@@ -179,6 +178,16 @@ void thin_out(std::span<const Channel* const> channels, std::vector<double>& sec
 }
 
 }  // namespace
+
+void SampleCount::add(std::size_t times, std::size_t values) {
+  constexpr std::size_t kMost = std::size_t{1} << 24;
+  if (values != 0 && times > (kMost - count_) / values)
+    gltf::refuse(StatusCode::limit_exceeded, kNone,
+                 "a clip has %zu values at %zu times each, and clips before it %zu samples; USD "
+                 "would have more than %zu samples",
+                 values, times, count_, kMost);
+  count_ += times * values;
+}
 
 double time_code(double seconds, double codes_per_second) {
   const double code = seconds * codes_per_second, whole = std::nearbyint(code);
@@ -197,14 +206,15 @@ double time_codes_per_second(const std::vector<Clip>& clips) {
 }
 
 std::vector<SampleTime> sample_times(std::span<const Channel* const> channels,
-                                     double codes_per_second) {
+                                     double codes_per_second, std::size_t values,
+                                     SampleCount& written) {
   std::vector<double> seconds;
   for (const Channel* channel : channels) {
     for (const float time : channel->times) seconds.push_back(static_cast<double>(time));
     if (channel->interpolation == Interpolation::step) add_times_before_steps(*channel, seconds);
     if (channel->interpolation == Interpolation::cubic_spline) SplineTimes(*channel, seconds);
   }
-  if (seconds.empty()) return {{}};
+  if (seconds.empty()) seconds.push_back(0);
   std::sort(seconds.begin(), seconds.end());
   seconds.erase(std::unique(seconds.begin(), seconds.end()), seconds.end());
   thin_out(channels, seconds);
@@ -213,6 +223,7 @@ std::vector<SampleTime> sample_times(std::span<const Channel* const> channels,
     const double code = time_code(time, codes_per_second);
     if (times.empty() || code > times.back().code) times.push_back({code, time});
   }
+  written.add(times.size(), values);
   return times;
 }
 

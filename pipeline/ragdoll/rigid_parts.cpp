@@ -1,17 +1,8 @@
 #include "pipeline/ragdoll/rigid_parts.h"
 
+#include "core/internal/moved_bones.h"
+
 namespace sunder::ragdoll {
-namespace {
-
-std::vector<bool> bones_moved_by_clips(const Character& character) {
-  std::vector<bool> moved(character.skeleton.bones.size(), false);
-  for (const Clip& clip : character.clips)
-    for (const Channel& channel : clip.channels)
-      if (channel.target != ChannelTarget::morph_weights) moved[channel.index] = true;
-  return moved;
-}
-
-}  // namespace
 
 std::vector<std::uint32_t> owners_of_parts(const Character& character,
                                            std::span<const std::uint32_t> bone_of_triangle) {

@@ -82,7 +82,10 @@ void variant_call(void* memory, const void* method, const void* const* arguments
   for (std::int64_t i = 0; i < count; ++i) list.push_back(in<Value>(arguments[i]));
   std::unique_ptr<Value> result;
   if (const auto* const object = std::get_if<Reference>(&self.data)) {
-    if (object->get() != nullptr) result = object->get()->call(in<std::string>(method), list);
+    if (object->is_stale())
+      host.errors.push_back("a freed object is called: " + in<std::string>(method));
+    else if (object->get() != nullptr)
+      result = object->get()->call(in<std::string>(method), list);
   } else {
     result = call_array(self, in<std::string>(method), list);
   }
@@ -232,6 +235,12 @@ void set_instance(void* object, const void*, void* instance) {
   static_cast<Object*>(object)->instance = instance;
 }
 
+std::uint64_t instance_id(const void* object) { return static_cast<const Object*>(object)->id; }
+void* instance_from_id(std::uint64_t id) {
+  const auto found = Object::living.find(id);
+  return found == Object::living.end() ? nullptr : found->second;
+}
+
 void register_class(void*, const void* name, const void* parent, const godot::ClassInfo* info) {
   RegisteredClass& of = host.classes[in<std::string>(name)];
   of.parent = in<std::string>(parent);
@@ -257,12 +266,12 @@ void print_error(const char* text, const char*, const char*, std::int32_t, std::
 godot::AnyFunction find(const char* name) {
   if (name == unknown_name) return nullptr;
   static const godot::Host functions = {
-      new_string,       new_string,      string_to_utf8,  variant_nil,     variant_copy,
-      variant_free,     variant_type,    variant_call,    get_indexed,     set_indexed,
-      from_constructor, to_constructor,  ptr_constructor, ptr_destructor,  int32_element,
-      float_element,    vector2_element, vector3_element, color_element,   construct_object,
-      set_instance,     register_class,  register_method, register_signal, unregister_class,
-      print_error};
+      new_string,       new_string,       string_to_utf8,   variant_nil,    variant_copy,
+      variant_free,     variant_type,     variant_call,     get_indexed,    set_indexed,
+      from_constructor, to_constructor,   ptr_constructor,  ptr_destructor, int32_element,
+      float_element,    vector2_element,  vector3_element,  color_element,  construct_object,
+      set_instance,     instance_id,      instance_from_id, register_class, register_method,
+      register_signal,  unregister_class, print_error};
   godot::AnyFunction found = nullptr;
   godot::for_each_function(functions, [&](const char* known, auto function) {
     if (std::strcmp(known, name) == 0) found = reinterpret_cast<godot::AnyFunction>(function);
@@ -274,21 +283,25 @@ godot::AnyFunction find(const char* name) {
 
 // ---- Objects.
 
-Reference::Reference(Object* object) : object_(object) {
-  if (object_ != nullptr && object_->counts_references) ++object_->references;
+Reference::Reference(Object* object)
+    : Reference(object, object == nullptr ? 0 : object->id,
+                object != nullptr && object->counts_references) {}
+Reference::Reference(Object* object, std::uint64_t id, bool counts)
+    : object_(object), id_(id), counts_(counts) {
+  if (counts_) ++object_->references;
 }
-Reference::Reference(const Reference& other) : Reference(other.object_) {}
+Reference::Reference(const Reference& other) : Reference(other.object_, other.id_, other.counts_) {}
 Reference& Reference::operator=(const Reference& other) {
-  if (this == &other) return *this;
   Reference kept(other);
   std::swap(object_, kept.object_);
+  std::swap(id_, kept.id_);
+  std::swap(counts_, kept.counts_);
   return *this;
 }
-Reference::~Reference() { release(); }
-void Reference::release() {
-  if (object_ != nullptr && object_->counts_references && --object_->references == 0)
-    delete object_;
+Reference::~Reference() {
+  if (counts_ && --object_->references == 0) delete object_;
 }
+bool Reference::is_stale() const { return object_ != nullptr && !Object::living.contains(id_); }
 
 Value nil() { return {}; }
 Value of(std::int64_t number) { return {Type::integer, number}; }

@@ -41,7 +41,8 @@ struct PackedReference {
 struct Value;
 using List = std::shared_ptr<std::vector<Value>>;
 
-/// Keeps an object that counts its references.
+/// What a variant of an object has: a pointer that is not checked. It keeps an object that counts
+/// its references; another may be gone.
 class Reference {
  public:
   Reference() = default;
@@ -50,10 +51,13 @@ class Reference {
   Reference& operator=(const Reference& other);
   ~Reference();
   [[nodiscard]] Object* get() const { return object_; }
+  [[nodiscard]] bool is_stale() const;
 
  private:
-  void release();
+  Reference(Object* object, std::uint64_t id, bool counts);
   Object* object_ = nullptr;
+  std::uint64_t id_ = 0;
+  bool counts_ = false;
 };
 
 struct Value {
@@ -66,8 +70,8 @@ struct Value {
 using Arguments = std::vector<Value>;
 
 struct Object {
-  explicit Object(bool counts) : counts_references(counts) { ++living; }
-  virtual ~Object() { --living; }
+  explicit Object(bool counts) : counts_references(counts), id(++last_id) { living[id] = this; }
+  virtual ~Object() { living.erase(id); }
   Object(const Object&) = delete;
   Object& operator=(const Object&) = delete;
   /// @return nothing for a method that there is not, or for other arguments.
@@ -76,7 +80,9 @@ struct Object {
   bool counts_references;
   int references = 0;
   void* instance = nullptr;  ///< Of a class of the extension.
-  static inline int living = 0;
+  const std::uint64_t id;
+  static inline std::uint64_t last_id = 0;
+  static inline std::map<std::uint64_t, Object*> living;  ///< By id.
 };
 
 // ---- Values.

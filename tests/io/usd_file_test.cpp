@@ -284,6 +284,53 @@ TEST(UsdFile, keys_at_times_of_their_own_make_no_flood_of_samples) {
   EXPECT_EQ(refused.error().code(), StatusCode::limit_exceeded) << refused.error().text();
 }
 
+/// Keys of one bone make samples of all bones that the clip moves, and so do those of one weight.
+TEST(UsdFile, samples_are_counted_as_they_are_written) {
+  const auto channel = [](ChannelTarget target, std::uint32_t index, std::uint32_t width,
+                          int keys) {
+    Channel made{target, index, width, Interpolation::linear, {}, {}};
+    for (int key = 0; key < keys; ++key) {
+      made.times.push_back(static_cast<float>(key) / 32.0f);
+      made.values.insert(made.values.end(), width - 1, 0.0f);
+      made.values.push_back(1);
+    }
+    return made;
+  };
+  const auto clip_of = [](std::vector<Channel> channels) {
+    float duration = 0;
+    for (const Channel& of : channels) duration = std::max(duration, of.times.back());
+    return Clip{"Clip", duration, std::move(channels)};
+  };
+  Character character = test::make_tube(4, 5, 1000);
+  character.clips.clear();
+  std::vector<Channel> channels;
+  for (std::uint32_t bone = 0; bone < 1000; ++bone)
+    channels.push_back(channel(ChannelTarget::translation, bone, 3, 1));
+  channels.push_back(channel(ChannelTarget::rotation, 7, 4, 17'000));
+  character.clips = {clip_of(channels)};
+  const auto bones = usd_layer(character, {});
+  ASSERT_FALSE(bones);
+  EXPECT_EQ(bones.error().code(), StatusCode::limit_exceeded);
+  EXPECT_THAT(bones.error().text(), HasSubstr("1000 values at 17000 times"));
+
+  channels.back() = channel(ChannelTarget::rotation, 7, 4, 400);
+  character.clips.assign(50, clip_of(channels));
+  const auto clips = usd_layer(character, {});  // each of them has 402,000
+  ASSERT_FALSE(clips);
+  EXPECT_THAT(clips.error().text(), HasSubstr("clips before it 16"));
+  character.clips.resize(1);
+  EXPECT_TRUE(usd_layer(character, {}));
+
+  Character face = test::make_sheet(2);
+  face.rest_morph_weights.assign(1000, 0.0f);
+  face.meshes[0].morph_targets.assign(
+      1000, {"shape", std::vector<Vec3f>(face.meshes[0].positions.size(), Vec3f::Zero()), {}, {}});
+  face.clips = {clip_of({channel(ChannelTarget::morph_weights, 3, 1, 17'000)})};
+  const auto weights = usd_layer(face, {});
+  ASSERT_FALSE(weights);
+  EXPECT_THAT(weights.error().text(), HasSubstr("1000 values at 17000 times"));
+}
+
 TEST(UsdFile, faults_are_named) {
   const Character character = test::make_tube(4, 5, 2);
   SaveOptions options;
@@ -375,6 +422,32 @@ TEST(UsdFile, materials_become_preview_surfaces) {
                     HasSubstr("inputs:bias = (0.25, 0.25, 0.25, 0)")));
 }
 
+TEST(UsdFile, the_folder_of_textures_is_made_and_taken_back_only_where_it_was_absent) {
+  const auto loaded = everything().load();
+  ASSERT_TRUE(loaded) << loaded.error().text();
+  const test::TemporaryFolder folder;
+  const auto save = [&](const char* name) {
+    return save_usd(folder.path() / name, *loaded->character, *loaded);
+  };
+  // A folder that has the name of the file makes a save fail when textures are already staged.
+  for (const char* const name : {"absent.usda", "empty.usda", "link.usda"})
+    std::filesystem::create_directory(folder.path() / name);
+  std::filesystem::create_directory(folder.path() / "empty_textures");
+  std::filesystem::create_directory(folder.path() / "elsewhere");
+  std::filesystem::create_directory_symlink("elsewhere", folder.path() / "link_textures");
+  for (const char* const name : {"absent.usda", "empty.usda", "link.usda"})
+    EXPECT_EQ(save(name).error().code(), StatusCode::file_unreadable);
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "absent_textures"));
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path() / "empty_textures"));
+  EXPECT_TRUE(std::filesystem::is_symlink(folder.path() / "link_textures"));
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path() / "elsewhere"));
+
+  std::filesystem::remove(folder.path() / "link.usda");
+  ASSERT_TRUE(save("link.usda"));
+  EXPECT_TRUE(std::filesystem::is_symlink(folder.path() / "link_textures"));
+  EXPECT_FALSE(std::filesystem::is_empty(folder.path() / "elsewhere"));
+}
+
 TEST(UsdFile, moved_textures_lie_where_gltf_puts_them) {
   const auto loaded = everything().load();
   ASSERT_TRUE(loaded) << loaded.error().text();
@@ -400,6 +473,17 @@ TEST(UsdFile, moved_textures_lie_where_gltf_puts_them) {
     EXPECT_NEAR(std::sin(angle) * s + std::cos(angle) * t + shift[1],
                 1 - static_cast<double>(image.y()), 1e-5);
   }
+}
+
+TEST(UsdFile, a_package_of_more_files_than_a_zip_counts_is_refused) {
+  UsdLayer layer;
+  for (int i = 0; i < 65'534; ++i) layer.textures.push_back({"t" + std::to_string(i), {}});
+  EXPECT_TRUE(usdz_package(layer, "torn.usda")) << "65,535 with the text";
+  layer.textures.push_back({"one more", {}});
+  const auto refused = usdz_package(layer, "torn.usda");
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code(), StatusCode::limit_exceeded);
+  EXPECT_THAT(refused.error().text(), HasSubstr("65535 files"));
 }
 
 std::uint32_t number_at(const std::vector<std::byte>& bytes, std::size_t at, std::size_t size) {

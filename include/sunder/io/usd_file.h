@@ -41,7 +41,7 @@ struct UsdLayer {
 /// The layer and its textures as one USDZ package: a ZIP file without compression, its entries at
 /// multiples of 64 bytes.
 /// @param name  of the layer's entry, "torn.usda".
-/// @return limit_exceeded above 4 GiB.
+/// @return limit_exceeded above 4 GiB or 65,535 files.
 [[nodiscard]] SUNDER_API Result<std::vector<std::byte>> usdz_package(const UsdLayer& layer,
                                                                      const std::string& name);
 

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <sunder/core/character.h>
+
+#include <vector>
+
+namespace sunder {
+
+/// Which bones have a channel in any clip.
+[[nodiscard]] inline std::vector<bool> bones_moved_by_clips(const Character& character) {
+  std::vector<bool> moved(character.skeleton.bones.size(), false);
+  for (const Clip& clip : character.clips)
+    for (const Channel& channel : clip.channels)
+      if (channel.target != ChannelTarget::morph_weights) moved[channel.index] = true;
+  return moved;
+}
+
+}  // namespace sunder
