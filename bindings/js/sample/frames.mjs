@@ -28,6 +28,14 @@ export function join([px, py, pz], [x, y, z, w]) {
     s * (x * z + y * w), s * (y * z - x * w), 1 - s * (x * x + y * y), px, py, pz];
 }
 
+/** Quaternions x y z w: the second turn, then the first; and a turn back. */
+export const multiply = ([ax, ay, az, aw], [bx, by, bz, bw]) => [
+  aw * bx + ax * bw + ay * bz - az * by, aw * by - ax * bz + ay * bw + az * bx,
+  aw * bz + ax * by - ay * bx + az * bw, aw * bw - ax * bx - ay * by - az * bz];
+export const conjugate = ([x, y, z, w]) => [-x, -y, -z, w];
+/** A vector turned by a quaternion. */
+export const turned = (turn, [x, y, z]) => multiply(multiply(turn, [x, y, z, 0]), conjugate(turn)).slice(0, 3);
+
 /** An axis of a frame, 0 to 2. */
 export const axisOf = (frame, axis) => frame.slice(3 * axis, 3 * axis + 3);
 /** Where a frame puts a point of its own. */

@@ -63,7 +63,7 @@ export function addToJolt(Jolt, world, ragdoll) {
     const settings = new Jolt.BodyCreationSettings(shapeOf(Jolt, of.shape), new Jolt.RVec3(...place), new Jolt.Quat(...turn), Jolt.EMotionType_Dynamic, 1);
     settings.mOverrideMassProperties = Jolt.EOverrideMassProperties_MassAndInertiaProvided;
     settings.mMassPropertiesOverride.mMass = of.mass;
-    settings.mMassPropertiesOverride.mInertia = Jolt.Mat44.prototype.sScale(new Jolt.Vec3(...of.moments));
+    settings.mMassPropertiesOverride.mInertia = Jolt.Mat44.prototype.sScaleVec3(new Jolt.Vec3(...of.moments));
     settings.mFriction = 0.8;
     settings.mLinearDamping = 0.05;
     settings.mAngularDamping = 0.3;

@@ -14,6 +14,11 @@ function limitFields({ bone, kind = 'hinge', axis, lower = 0, upper = 0, cone = 
   return { bone, kind: KINDS[kind], axis: [...triple(axis, 'axis')], lower, upper, cone };
 }
 
+/** Refuses what the library would read past the end of. */
+function sized(values, count, what) {
+  if (values?.length !== count) throw invalidArgument(`${what}: ${values?.length} numbers; ${count} are expected`);
+}
+
 export class Ragdoll extends Owned {
   #calls;
   #bones;
@@ -21,14 +26,17 @@ export class Ragdoll extends Owned {
 
   /** @param matrices  the pose in which the model stands, 12 numbers per bone */
   constructor(calls, character, matrices, { limits = [], morphWeights = null, ...options } = {}) {
+    const { bone_count, morph_weight_count } = calls.sunder_get_character(character);
+    sized(matrices, 12 * bone_count, 'matrices');
+    if (morphWeights !== null) sized(morphWeights, morph_weight_count, 'morphWeights');
     const fields = fieldsOf(sunder_ragdoll_options, options);
     if (limits.length) Object.assign(fields, { limits: limits.map(limitFields), limit_count: limits.length });
-    super(calls.sunder_create_ragdoll(character, matrices, matrices.length / 12, morphWeights, { ...calls.sunder_default_ragdoll_options(), ...fields }), (handle) => {
+    super(calls.sunder_create_ragdoll(character, matrices, bone_count, morphWeights, { ...calls.sunder_default_ragdoll_options(), ...fields }), (handle) => {
       calls.sunder_destroy_ragdoll(handle);
       calls.memory.detachViews();
     });
     this.#calls = calls;
-    this.#bones = matrices.length / 12;
+    this.#bones = bone_count;
     const { bodies, count } = calls.sunder_get_ragdoll_bodies(this.handle);
     this.#bodies = calls.memory.readStructs(sunder_ragdoll_body, bodies, count).map((body) => ({
       bone: body.bone, parent: body.parent === NONE ? null : body.parent, mass: body.mass, moments: [...body.moments],
@@ -43,15 +51,18 @@ export class Ragdoll extends Owned {
 
   /** Where a pose puts the bodies: 12 numbers each. @param matrices  12 numbers per bone */
   place(matrices) {
-    return this.#written(12 * this.#bodies.length, (to) => this.#calls.sunder_place_bodies(this.handle, matrices, matrices.length / 12, to));
+    sized(matrices, 12 * this.#bones, 'matrices');
+    return this.#written(12 * this.#bodies.length, (to) => this.#calls.sunder_place_bodies(this.handle, matrices, this.#bones, to));
   }
   /** How bodies in these places turn their joints: quaternions x y z w, from the parent's side to the body's. */
   turns(places) {
-    return this.#written(4 * this.#bodies.length, (to) => this.#calls.sunder_get_joint_turns(this.handle, places, places.length / 12, to));
+    sized(places, 12 * this.#bodies.length, 'places');
+    return this.#written(4 * this.#bodies.length, (to) => this.#calls.sunder_get_joint_turns(this.handle, places, this.#bodies.length, to));
   }
   /** The pose in which bodies in these places hold the bones, for instance.setMatrices(). */
   matrices(places) {
-    return this.#written(12 * this.#bones, (to) => this.#calls.sunder_pose_of_bodies(this.handle, places, places.length / 12, to));
+    sized(places, 12 * this.#bodies.length, 'places');
+    return this.#written(12 * this.#bones, (to) => this.#calls.sunder_pose_of_bodies(this.handle, places, this.#bodies.length, to));
   }
   /** The convex hull of each body's part, in its frame, as copies. Fails where the library was built without Qhull, as the one in this package. */
   hulls({ points = 64 } = {}) {

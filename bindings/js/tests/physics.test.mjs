@@ -5,7 +5,7 @@ import test from 'node:test';
 import RAPIER from '@dimforge/rapier3d-compat';
 import initJolt from 'jolt-physics';
 import { Sunder } from 'sunder-tear';
-import { transform } from '../sample/frames.mjs';
+import { conjugate, multiply, transform, turned } from '../sample/frames.mjs';
 import { addToJolt, createJoltWorld } from '../sample/jolt_ragdoll.mjs';
 import { addSoftBody } from '../sample/jolt_soft_body.mjs';
 import { addToRapier } from '../sample/rapier_ragdoll.mjs';
@@ -75,12 +75,10 @@ test('a severed limb falls as a ragdoll of Rapier', async () => {
   await fall({
     add: (ragdoll) => addToRapier(RAPIER, world, ragdoll),
     step: () => { for (let i = 0; i < 4; ++i) world.step(); },
-    states: ({ bodies }) => bodies.map((body) => {
+    states: ({ bodies, turns }) => bodies.map((body, i) => {
       const v = body.linvel(), w = body.angvel(), { x, y, z, w: real } = body.rotation();
-      // w along the axes of the body: turned back by its rotation.
-      const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-      const q = [-x, -y, -z], spin = [w.x, w.y, w.z], t = cross(q, spin).map((one) => 2 * one), u = cross(q, t);
-      return { speed: [v.x, v.y, v.z], spin: spin.map((one, k) => one + real * t[k] + u[k]), height: body.translation().y };
+      const turn = multiply([x, y, z, real], conjugate(turns[i]));
+      return { speed: [v.x, v.y, v.z], spin: turned(conjugate(turn), [w.x, w.y, w.z]), height: body.translation().y };
     }),
   });
 });
@@ -98,6 +96,52 @@ test('a severed limb falls as a ragdoll of Jolt', async () => {
       const w = body.GetRotation().Conjugated().MulVec3(body.GetAngularVelocity());
       return { speed, spin: [w.GetX(), w.GetY(), w.GetZ()], height: body.GetCenterOfMassPosition().GetY() };
     }),
+  });
+});
+
+/** Without gravity, hinges of any frame that start within their limits stay where they are; those pushed end at their limits. */
+async function hingesStay(add, step, push) {
+  const model = await Sunder.load(rig('tube'), { soft: false });
+  const bones = model.ragdoll().bodies.map(({ bone }) => bone).slice(1);
+  for (const axis of [[1, 0, 0], [0, 0, 1], [0.3, -0.5, 0.8], [-1, 0.2, 0]]) {
+    const limits = bones.map((bone) => ({ bone, kind: 'hinge', axis, lower: -0.1, upper: 0.4 }));
+    const ragdoll = model.ragdoll(undefined, { limits }), limp = add(ragdoll);
+    const angleOf = () => {
+      const turns = ragdoll.turns(limp.places());
+      return ragdoll.bodies.map(({ parent }, i) => (parent === null ? 0 : 2 * Math.atan2(turns[4 * i], turns[4 * i + 3])));
+    };
+    for (let i = 0; i < 60; ++i) step();
+    for (const angle of angleOf()) assert.ok(Math.abs(angle) < 0.02, `a hinge at rest turns to ${angle}`);
+    for (const [sign, end] of [[1, 0.4], [-1, -0.1]]) {
+      for (let i = 0; i < 240; ++i) {
+        push(limp, ragdoll, sign);
+        step();
+      }
+      const angle = angleOf()[1];
+      assert.ok(Math.abs(angle - end) < 0.1, `a hinge that is pushed ends at ${angle}, not ${end}`);
+    }
+  }
+}
+
+test('hinges of Rapier and Jolt turn from where ours do, within our limits', async () => {
+  await RAPIER.init();
+  const world = new RAPIER.World({ x: 0, y: 0, z: 0 });
+  const axisNow = (ragdoll, places) => [0, 1, 2].map((k) => transform([...places.slice(12, 21), 0, 0, 0], ragdoll.bodies[1].bodyFromJoint.slice(0, 3))[k]);
+  const torqueOf = (ragdoll, limp, sign) => axisNow(ragdoll, limp.places()).map((x) => sign * 3 * ragdoll.bodies[1].moments[2] * x);
+  await hingesStay((ragdoll) => addToRapier(RAPIER, world, ragdoll), () => world.step(), (limp, ragdoll, sign) => {
+    const [x, y, z] = torqueOf(ragdoll, limp, sign);
+    limp.bodies[1].resetTorques(true);
+    limp.bodies[1].addTorque({ x, y, z }, true);
+    limp.bodies[0].resetTorques(true);
+    limp.bodies[0].addTorque({ x: -x, y: -y, z: -z }, true);
+  });
+  const Jolt = await initJolt(), space = createJoltWorld(Jolt);
+  space.GetPhysicsSystem().SetGravity(new Jolt.Vec3(0, 0, 0));
+  await hingesStay((ragdoll) => addToJolt(Jolt, space, ragdoll), () => space.Step(FRAME, 2), (limp, ragdoll, sign) => {
+    const torque = torqueOf(ragdoll, limp, sign);
+    for (const body of limp.bodies) space.GetPhysicsSystem().GetBodyInterface().ActivateBody(body.GetID());
+    limp.bodies[1].AddTorque(new Jolt.Vec3(...torque));
+    limp.bodies[0].AddTorque(new Jolt.Vec3(...torque.map((x) => -x)));
   });
 });
 
@@ -157,7 +201,11 @@ test('every rig has a ragdoll, and faults are named', async () => {
     assert.throws(() => ragdoll.place(model.matrices()), /disposed/);
   }
   const model = await Sunder.load(rig('tube'));
-  assert.throws(() => model.ragdoll(new Float64Array(12)), { code: 'size_mismatch' });
+  for (const length of [12, 12 * model.bones.length + 3])
+    assert.throws(() => model.ragdoll(new Float64Array(length)), { code: 'invalid_argument' });
+  assert.throws(() => model.ragdoll(undefined, { morphWeights: [] }), { code: 'invalid_argument' });
+  assert.throws(() => model.ragdoll().place(new Float64Array(3)), { code: 'invalid_argument' });
+  assert.throws(() => model.ragdoll().matrices(new Float64Array(3)), { code: 'invalid_argument' });
   assert.throws(() => model.ragdoll(undefined, { maximumBodies: 0 }), { code: 'invalid_argument' });
   assert.throws(() => model.ragdoll(undefined, { limits: [{ bone: 0, kind: 'elbow', axis: [1, 0, 0] }] }), { code: 'invalid_argument' });
   const limits = [{ bone: model.ragdoll().bodies[1].bone, kind: 'hinge', axis: [0, 0, 1], lower: -0.1, upper: 0.2 }];
