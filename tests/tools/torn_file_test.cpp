@@ -10,6 +10,7 @@
 #include "support/machine/gltf_validator.h"
 #include "support/machine/node_program.h"
 #include "support/machine/stress.h"
+#include "support/models/gltf_builder.h"
 #include "support/models/shared_models.h"
 #include "tools/command_fixture.h"
 
@@ -210,6 +211,45 @@ TEST_F(TornFile, cannot_be_checked_without_its_source_or_record) {
   const Check check = check_torn(model(), path("half.glb"));
   EXPECT_EQ(check.exit_code, 2);
   EXPECT_THAT(check.output, HasSubstr("truncated"));
+}
+
+TEST_F(TornFile, of_a_model_with_a_flat_or_huge_node_is_written_and_proved) {
+  const std::vector<std::byte> tube =
+      test::read_bytes((test::own_data() / "rigged/tube.glb").string());
+  const auto log = [&] {
+    const auto loaded = load_character((test::own_data() / "rigged/tube.glb").string());
+    return write("log.json", operations_for(*loaded->character));
+  }();
+  const std::pair<const char*, bool> cases[] = {
+      {R"({"scale": [0, 0, 0]})", false},          {R"({"scale": [1e-10, 1e-10, 1e-10]})", true},
+      {R"({"scale": [1, 0, 1]})", false},          {R"({"scale": [1e30, 1e30, 1e30]})", true},
+      {R"({"translation": [3e38, 0, 0]})", true}, {R"({"translation": [1, 0, 0]})", true}};
+  for (const auto& [transform, has_bound] : cases) {
+    // A triangle of its own below the last joint, so that it becomes a bone.
+    auto builder = test::GltfBuilder::from_glb(tube);
+    test::Json prop = test::Json::parse(transform);
+    prop["mesh"] = builder.json["meshes"].size();
+    const std::size_t positions =
+        builder.add(std::vector<float>{0, 0, 0, 0.1f, 0, 0, 0, 0.1f, 0}, "VEC3");
+    builder.json["accessors"][positions]["min"] = {0.0, 0.0, 0.0};
+    builder.json["accessors"][positions]["max"] = {0.1f, 0.1f, 0.0};
+    builder.json["meshes"].push_back(
+        {{"primitives", {{{"attributes", {{"POSITION", positions}}}}}}});
+    test::Json& joint = builder.json["nodes"][builder.json["skins"][0]["joints"].back().get<int>()];
+    joint["children"].push_back(builder.json["nodes"].size());
+    builder.json["nodes"].push_back(prop);
+    const std::vector<std::byte> all = builder.glb();
+    const std::string source = path("prop.glb");
+    std::ofstream(source, std::ios::binary)
+        .write(reinterpret_cast<const char*>(all.data()), static_cast<std::streamsize>(all.size()));
+    const std::string result = torn(source, log, "torn_prop.glb");
+    const json document = document_of(result);
+    ASSERT_TRUE(document.contains("extensions")) << transform;
+    const json& record = document["extensions"]["SUNDER_torn_mesh"];
+    EXPECT_EQ(record.contains("placeBound"), has_bound) << transform << record;
+    const Check check = check_torn(source, result);
+    EXPECT_EQ(check.exit_code, 0) << transform << '\n' << check.output.substr(0, 2000);
+  }
 }
 
 TEST_F(TornFile, reads_as_if_it_had_no_record) {
