@@ -161,7 +161,7 @@ class TornMesh {  // the primitives of a torn file that share vertices
       const of = isValid && values < 2 ? parents.map((parent, k) => [parent, parts[k] / sum]).filter(([, part]) => part > 0) : null;
       for (const [parent, part] of of ?? [])
         for (const [vertex, share] of parent < this.first ? [[parent, 1]] : origins[parent - this.first].shares ?? [[NaN, 1]]) add(shares, vertex, part * share);
-      origins.push({ of, values, place, policy, isFitted: policy % 3 > 0, isLimited: (kind & 16) !== 0, shares: of && !shares.has(NaN) ? shares : null });
+      origins.push({ of, values, place, policy, isFitted: policy % 3 > 0, isLimited: (kind & 16) !== 0, shares: of && !shares.has(NaN) && shares.size <= 3 ? shares : null });
       for (const name of [['derived', 'rims', 'inside'][of ? values : 2], ...(policy % 3 > 0 ? ['fitted'] : [])]) this.counts[name] += 1;
     });
   }
