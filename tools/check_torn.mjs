@@ -114,7 +114,7 @@ function compareMean(of, { values, size }, v, { isDirection, isLabel, slack, bou
 }
 class TornMesh {  // the primitives of a torn file that share vertices
   constructor(source, torn, record, primitive, options, say) {
-    Object.assign(this, { source, torn, record, options, say, pools: new Map(), primitives: 0, origins: [] });
+    Object.assign(this, { source, torn, record, options, say, pools: new Map(), primitives: 0, mixed: 0, origins: [] });
     const { primitives } = this.sourceMesh = source.entry('meshes', record.sourceMesh);
     need(Array.isArray(record.sourcePrimitives) && record.sourcePrimitives.every((p) => primitives?.[p]), 'the source has no such primitive');
     Object.assign(this, { before: source.vertices(primitives[record.sourcePrimitives[0]]), after: torn.vertices(primitive) });
@@ -175,10 +175,10 @@ class TornMesh {  // the primitives of a torn file that share vertices
       const isFree = (one) => one && (!one.of || one.policy === 2);  // fitted, or inside of a wall or cap: the file may not have all its weights
       if (v >= this.first) full[v] = new Map(of ? [] : written[v]);
       for (const [parent, part] of of ?? []) full[parent].forEach((weight, slot) => add(full[v], slot, part * weight));
+      need((this.mixed += full[v].size) < 2 ** 24, 'its new vertices mix too many bones');
       const isChecked = ![v, ...(of ?? []).map(([parent]) => parent)].some((one) => isFree(this.origins[one - this.first])), strange = [...written[v].keys()].find((slot) => !(policy === 2 && of ? full[v] : bones).has(slot));
       const text = isChecked ? compareWeights(full[v], written[v], { ...options, isLimited }) : strange === undefined ? null : `bone ${strange} moves none of its parents`;
-      if (text) say(v, text);
-      if (!of) continue;
+      if (text) say(v, text); if (!of) continue;
       const state = [...at(position, v), ...[...written[v]].sort(([x], [y]) => x - y).flat()], twin = twins.get(place) ?? twins.set(place, state).get(place);
       const reach = 8 * HALF_ULP * Math.max(4, ...of.flatMap(([parent]) => at(position, parent)).map(Math.abs));  // of another vertex of the same point
       if (twin !== state && (twin.length !== state.length || state.some((x, i) => !(Math.abs(x - twin[i]) <= reach)))) say(v, 'it parts from another vertex of the same point');
