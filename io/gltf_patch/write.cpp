@@ -194,7 +194,7 @@ class Patch {
     correct_skins();
     ClipPatch(draft_, character_, source_, rig_.node_of_bone()).write_changed(before_);
     remove_unusable_channels();
-    if (has_origins_) add_source_of_record(loaded_, options_, draft_.json);
+    if (has_origins_) add_source_of_record(loaded_, options_, gone_, draft_.json);
   }
 
  private:
@@ -274,7 +274,10 @@ class Patch {
     Origin origin = source_.mesh_origins[mesh_index];
     origin.skinned |= has_new_skin(mesh_index);
     for (const std::uint32_t primitive : origin.primitives) rewritten[primitive] = nullptr;
-    if (!MeshWriter::has_triangles(mesh)) return;
+    if (!MeshWriter::has_triangles(mesh)) {
+      gone_.push_back({{"node", origin.node}, {"primitives", origin.primitives}});
+      return;
+    }
     const InfluenceForm form = influence_form(options_, mesh_index, most_of_source_);
     const MeshWriter::Vertices vertices = writer_.add_vertices(mesh, origin, form);
     Json record;
@@ -283,8 +286,14 @@ class Patch {
           options_.origins[mesh_index],
           {mesh, vertices, form.maximum, before_.meshes[mesh_index].morph_targets.size()}, draft_);
     has_origins_ |= !record.is_null();
+    std::vector<std::uint32_t> indices_of;
+    for (std::uint32_t submesh = 0; submesh < mesh.submeshes.size(); ++submesh)
+      indices_of.push_back(writer_.add_indices(mesh, submesh));
+    if (!record.is_null())
+      record["primitives"] =
+          indices_of.size() - std::count(indices_of.begin(), indices_of.end(), kNone);
     for (std::uint32_t submesh = 0; submesh < mesh.submeshes.size(); ++submesh) {
-      const std::uint32_t indices = writer_.add_indices(mesh, submesh);
+      const std::uint32_t indices = indices_of[submesh];
       if (indices == kNone) continue;
       const bool is_new = submesh >= origin.primitives.size();
       Json primitive = is_new ? Json::object() : old_primitives[origin.primitives[submesh]];
@@ -362,7 +371,8 @@ class Patch {
   AppendedRig rig_;
   std::vector<std::uint32_t> nodes_of_mesh_;  ///< How many nodes use each mesh of the draft.
   std::set<std::uint32_t> without_mesh_;
-  bool has_origins_ = false;  ///< Of some mesh that was written.
+  Json gone_ = Json::array();  ///< For the record: meshes of which no triangle is left.
+  bool has_origins_ = false;   ///< Of some mesh that was written.
 };
 
 /// @param maximum  influences per vertex; 0: all.

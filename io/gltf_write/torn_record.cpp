@@ -332,7 +332,7 @@ void set_origins(const Json& of_mesh, const SourceDocument::MeshOrigin& origin,
 }
 
 void add_source_of_record(const LoadedCharacter& loaded, const SaveOptions& options,
-                          Json& document) {
+                          const Json& gone, Json& document) {
   const FileIdentity file = identity_of(*loaded.source);
   Json record = {
       {"version", kRecordVersion},
@@ -340,6 +340,7 @@ void add_source_of_record(const LoadedCharacter& loaded, const SaveOptions& opti
        {{"sha256", file.sha256}, {"bytes", file.bytes}, {"format", loaded.report.format}}}};
   if (options.certified_bound) record["certifiedBound"] = *options.certified_bound;
   if (options.place_bound) record["placeBound"] = *options.place_bound;
+  if (!gone.empty()) record["gone"] = gone;
   document["extensions"][kTornMesh] = std::move(record);
   Json& used = list_of(document, "extensionsUsed");
   if (std::find(used.begin(), used.end(), Json(kTornMesh)) == used.end()) used.push_back(kTornMesh);

@@ -39,7 +39,8 @@ void set_origins(const Json& of_mesh, const SourceDocument::MeshOrigin& origin,
                  std::uint32_t source_primitive, const GlbDraft& draft, Json& primitive);
 
 /// Writes which file was the source.
+/// @param gone  per mesh of which no triangle is left its node and primitives in the source.
 void add_source_of_record(const LoadedCharacter& loaded, const SaveOptions& options,
-                          Json& document);
+                          const Json& gone, Json& document);
 
 }  // namespace sunder::gltf

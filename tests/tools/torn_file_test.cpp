@@ -10,6 +10,7 @@
 #include "support/machine/gltf_validator.h"
 #include "support/machine/node_program.h"
 #include "support/machine/stress.h"
+#include "support/models/gltf_builder.h"
 #include "support/models/shared_models.h"
 #include "tools/command_fixture.h"
 
@@ -212,6 +213,45 @@ TEST_F(TornFile, cannot_be_checked_without_its_source_or_record) {
   EXPECT_THAT(check.output, HasSubstr("truncated"));
 }
 
+TEST_F(TornFile, of_a_model_with_a_flat_or_huge_node_is_written_and_proved) {
+  const std::vector<std::byte> tube =
+      test::read_bytes((test::own_data() / "rigged/tube.glb").string());
+  const auto log = [&] {
+    const auto loaded = load_character((test::own_data() / "rigged/tube.glb").string());
+    return write("log.json", operations_for(*loaded->character));
+  }();
+  const std::pair<const char*, bool> cases[] = {
+      {R"({"scale": [0, 0, 0]})", false},         {R"({"scale": [1e-10, 1e-10, 1e-10]})", true},
+      {R"({"scale": [1, 0, 1]})", false},         {R"({"scale": [1e30, 1e30, 1e30]})", true},
+      {R"({"translation": [3e38, 0, 0]})", true}, {R"({"translation": [1, 0, 0]})", true}};
+  for (const auto& [transform, has_bound] : cases) {
+    // A triangle of its own below the last joint, so that it becomes a bone.
+    auto builder = test::GltfBuilder::from_glb(tube);
+    test::Json prop = test::Json::parse(transform);
+    prop["mesh"] = builder.json["meshes"].size();
+    const std::size_t positions =
+        builder.add(std::vector<float>{0, 0, 0, 0.1f, 0, 0, 0, 0.1f, 0}, "VEC3");
+    builder.json["accessors"][positions]["min"] = {0.0, 0.0, 0.0};
+    builder.json["accessors"][positions]["max"] = {0.1f, 0.1f, 0.0};
+    builder.json["meshes"].push_back(
+        {{"primitives", {{{"attributes", {{"POSITION", positions}}}}}}});
+    test::Json& joint = builder.json["nodes"][builder.json["skins"][0]["joints"].back().get<int>()];
+    joint["children"].push_back(builder.json["nodes"].size());
+    builder.json["nodes"].push_back(prop);
+    const std::vector<std::byte> all = builder.glb();
+    const std::string source = path("prop.glb");
+    std::ofstream(source, std::ios::binary)
+        .write(reinterpret_cast<const char*>(all.data()), static_cast<std::streamsize>(all.size()));
+    const std::string result = torn(source, log, "torn_prop.glb");
+    const json document = document_of(result);
+    ASSERT_TRUE(document.contains("extensions")) << transform;
+    const json& record = document["extensions"]["SUNDER_torn_mesh"];
+    EXPECT_EQ(record.contains("placeBound"), has_bound) << transform << record;
+    const Check check = check_torn(source, result);
+    EXPECT_EQ(check.exit_code, 0) << transform << '\n' << check.output.substr(0, 2000);
+  }
+}
+
 TEST_F(TornFile, reads_as_if_it_had_no_record) {
   const std::string log = write("all.json", kAll);
   const std::string with = torn(model(), log, "with.glb"),
@@ -253,6 +293,60 @@ TEST_F(TornFile, that_is_torn_again_tells_of_the_last_tear) {
   const std::string bare = torn(first, write("all.json", kAll), "bare.glb", {"--no-origins"});
   EXPECT_TRUE(first_recorded(document_of(bare)).is_null());
   EXPECT_FALSE(document_of(bare).contains("extensions"));
+}
+
+TEST_F(TornFile, with_another_document_is_refused) {
+  std::string pairs;
+  for (const char* const option : {"--quiet", "--open"}) {
+    const std::string result =
+        torn(model(), write("all.json", kAll), std::string(option).substr(2) + ".glb", {option});
+    pairs += " '" + model() + "' '" + result + "'";
+  }
+  const std::string sheet = (test::own_data() / "rigged/seamed_sheet.glb").string();
+  const auto loaded = load_character(sheet);
+  ASSERT_TRUE(loaded);
+  pairs += " '" + sheet + "' '" +
+           torn(sheet, write("log.json", operations_for(*loaded->character)), "sheet.glb") + "'";
+  const auto run = test::run_node_program("torn_mutants.mjs", "0 1" + pairs);
+  ASSERT_TRUE(run);
+  EXPECT_TRUE(run->succeeded) << run->output.substr(0, 3000);
+  const json counts = json::parse(run->output, nullptr, false);
+  ASSERT_TRUE(counts.is_object()) << run->output.substr(0, 3000);
+  EXPECT_GE(counts["documents"].size(), 20u);
+  EXPECT_EQ(counts["documents"]["no node has a mesh"], 3);
+  EXPECT_EQ(counts["documents"]["a chain of new vertices between all of the source"], 3);
+}
+
+TEST_F(TornFile, of_which_a_mesh_is_gone_says_so_and_is_proved) {
+  // Two nodes with a mesh of their own, and a bore with which the smaller one goes.
+  auto builder = test::GltfBuilder::from_glb(
+      test::read_bytes((test::own_data() / "rigged/tube.glb").string()));
+  const std::size_t positions =
+      builder.add(std::vector<float>{9, 0, 0, 9.1f, 0, 0, 9, 0.1f, 0}, "VEC3");
+  builder.json["accessors"][positions]["min"] = {9.0, 0.0, 0.0};
+  builder.json["accessors"][positions]["max"] = {9.1f, 0.1f, 0.0};
+  const std::size_t node = builder.json["nodes"].size();
+  builder.json["nodes"].push_back({{"mesh", builder.json["meshes"].size()}});
+  builder.json["scenes"][0]["nodes"].push_back(node);
+  builder.json["meshes"].push_back({{"primitives", {{{"attributes", {{"POSITION", positions}}}}}}});
+  const std::vector<std::byte> all = builder.glb();
+  const std::string source = path("two.glb");
+  std::ofstream(source, std::ios::binary)
+      .write(reinterpret_cast<const char*>(all.data()), static_cast<std::streamsize>(all.size()));
+  const json bore = {{"op", "drill"},
+                     {"axis", {{"origin", {9.05, 0.05, 1}}, {"direction", {0, 0, -1}}}},
+                     {"radius", 0.5},
+                     {"depth", 2}};
+  json log = json::parse(operations_for(*load_character(source)->character));
+  log["operations"] = json::array({bore, log["operations"][1]});
+  log["operations"][1]["plane"]["point"] = {0, 0.5, 0};
+  const std::string result = torn(source, write("log.json", log.dump()), "one_of_two.glb");
+  const json document = document_of(result);
+  ASSERT_FALSE(document["nodes"][node].contains("mesh"));
+  EXPECT_EQ(document["extensions"]["SUNDER_torn_mesh"]["gone"],
+            json::array({{{"node", node}, {"primitives", {0}}}}));
+  const Check check = check_torn(source, result);
+  EXPECT_EQ(check.exit_code, 0) << check.output.substr(0, 2000);
 }
 
 TEST_F(TornFile, with_one_other_byte_is_refused_or_harmless) {

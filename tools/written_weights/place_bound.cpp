@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <span>
 
@@ -61,6 +62,32 @@ Status append_rows(const Character& torn, std::uint32_t mesh, const ModelPose& b
   return {};
 }
 
+/// As bound_places(), but with the failures of the certificate.
+Result<std::optional<double>> certify_places(const Character& torn,
+                                             const std::vector<MeshOrigins>& origins,
+                                             const std::vector<SkinWeights>& stored) {
+  const Result<ModelPose> bind = bind_pose(torn);
+  if (!bind) return bind.error();
+  const Result<JointLimits> limits = free_joint_limits(torn, *bind);
+  if (!limits) return limits.error();
+  const Result<JointTree> tree = JointTree::create(torn.skeleton, *bind, *limits);
+  if (!tree) return tree.error();
+  double maximum = 0;
+  for (std::uint32_t mesh = 0; mesh < origins.size(); ++mesh) {
+    SkinDifferences rows;
+    if (const Status status = append_rows(torn, mesh, *bind, origins[mesh], stored[mesh], rows);
+        !status)
+      return status;
+    const Result<DeviationCertificate> certificate = certify_deviation(*tree, rows);
+    if (!certificate) return certificate.error();
+    for (const double bound : certificate->bound) {
+      if (!std::isfinite(bound)) return std::optional<double>();  // a gap, or numbers that overflow
+      maximum = std::max(maximum, bound);
+    }
+  }
+  return std::optional<double>(maximum);
+}
+
 }  // namespace
 
 Result<std::vector<SkinWeights>> stored_weights(const Character& torn,
@@ -85,24 +112,9 @@ Result<std::vector<SkinWeights>> stored_weights(const Character& torn,
 Result<std::optional<double>> bound_places(const Character& torn,
                                            const std::vector<MeshOrigins>& origins,
                                            const std::vector<SkinWeights>& stored) {
-  const Result<ModelPose> bind = bind_pose(torn);
-  if (!bind) return bind.error();
-  const Result<JointLimits> limits = free_joint_limits(torn, *bind);
-  if (!limits) return limits.error();
-  const Result<JointTree> tree = JointTree::create(torn.skeleton, *bind, *limits);
-  if (!tree) return tree.error();
-  double maximum = 0;
-  for (std::uint32_t mesh = 0; mesh < origins.size(); ++mesh) {
-    SkinDifferences rows;
-    if (const Status status = append_rows(torn, mesh, *bind, origins[mesh], stored[mesh], rows);
-        !status)
-      return status;
-    const Result<DeviationCertificate> certificate = certify_deviation(*tree, rows);
-    if (!certificate) return certificate.error();
-    if (!certificate->gaps.empty()) return std::optional<double>();
-    maximum = std::max(maximum, certificate->maximum);
-  }
-  return std::optional<double>(maximum);
+  Result<std::optional<double>> bound = certify_places(torn, origins, stored);
+  if (!bound && bound.error().code() != StatusCode::limit_exceeded) return std::optional<double>();
+  return bound;
 }
 
 }  // namespace sunder::tools

@@ -13,7 +13,8 @@ namespace sunder::tools {
 /// @param torn     the unpruned one.
 /// @param origins  of its vertices.
 /// @param stored   per mesh the weights of appended vertices as they are stored.
-/// @return metres; nothing if some vertex has no bound, see CertificateGap.
+/// @return metres; nothing if there is no such bound: a vertex has none (see CertificateGap), the
+/// bind pose of some bone is flat, or numbers are too large. limit_exceeded: out of memory.
 [[nodiscard]] Result<std::optional<double>> bound_places(const Character& torn,
                                                          const std::vector<MeshOrigins>& origins,
                                                          const std::vector<SkinWeights>& stored);
