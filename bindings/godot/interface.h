@@ -68,7 +68,7 @@ struct MethodInfo {
   void** default_arguments;
 };
 
-/// Of classdb_register_extension_class2. Functions that are not used are null.
+/// Describes a class to classdb_register_extension_class2. Functions that are not used are null.
 struct ClassInfo {
   std::uint8_t is_virtual;
   std::uint8_t is_abstract;

@@ -12,7 +12,7 @@
 
 namespace sunder::godot {
 
-/// What a node tears: the character of a MeshInstance3D, in a scene of its own.
+/// The character that a node tears, made from a MeshInstance3D, in a scene of its own.
 struct Torn {
   Torn() = default;
   ~Torn();
@@ -58,7 +58,7 @@ class TearableSkeleton {
   bool cut(const Vector3& point, const Vector3& normal, bool caps);
   /// Takes back the last operation, in the next frame.
   bool undo();
-  /// Of walls and caps; null: that of the surface beside.
+  /// Sets the material of walls and caps; null: they have that of the surface beside.
   void set_wound_material(const Variant& material) { wound_material_ = material; }
   /// The log of all operations, which `sunder tear` reads; empty if nothing is attached.
   [[nodiscard]] std::string get_log();

@@ -78,7 +78,7 @@ class Variant {
   [[nodiscard]] void* get() { return &value_; }
   [[nodiscard]] const void* get() const { return &value_; }
 
-  /// Of a value as the host passes it, by a pointer.
+  /// A copy of the value to which a pointer of the host leads.
   [[nodiscard]] static Variant from(Type type, const void* value) { return Variant(type, value); }
   /// To a value of that type, as the host wants it.
   void assign_to(Type type, void* value) const;

@@ -6,7 +6,7 @@
 
 namespace sunder {
 
-/// Which bones have a channel in any clip.
+/// Per bone: whether a clip has a channel for its transform.
 [[nodiscard]] inline std::vector<bool> bones_moved_by_clips(const Character& character) {
   std::vector<bool> moved(character.skeleton.bones.size(), false);
   for (const Clip& clip : character.clips)

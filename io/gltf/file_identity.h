@@ -11,7 +11,7 @@ class SourceDocument;
 
 namespace sunder::gltf {
 
-/// What tells a file from all others.
+/// Identifies the content of a file.
 struct FileIdentity {
   std::uint64_t bytes = 0;  ///< Size.
   std::string sha256;       ///< Of the content, as sha256sum prints it.

@@ -212,14 +212,23 @@ Status fill_joints(const Character& character, const ModelPose& pose, const Body
   for (std::size_t i = 0; i < bodies.size(); ++i)
     if (bodies[i].parent != kNone)
       rests[i] = ragdoll::turn_between(*rest, bodies[bodies[i].parent].bone, bodies[i].bone);
-  Result<std::vector<std::vector<Quatd>>> turns = turns_in_clips(character, bodies, rests);
+  const auto given_for = [&](std::size_t i) {
+    const BoneLimit* const at_joint = (*limit_of)[tree.joint_bones[i]];
+    return at_joint != nullptr ? at_joint : (*limit_of)[bodies[i].bone];
+  };
+  bool needs_clips = false;
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    needs_clips |= bodies[i].parent != kNone && given_for(i) == nullptr;
+  Result<std::vector<std::vector<Quatd>>> turns =
+      needs_clips ? turns_in_clips(character, bodies, rests)
+                  : std::vector<std::vector<Quatd>>(bodies.size());
   if (!turns) return turns.error();
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     RagdollBody& body = bodies[i];
     if (body.parent == kNone) continue;
     const RagdollBody& parent = bodies[body.parent];
     const Vec3d origin = pose.model_from_bone[tree.joint_bones[i]].translation();
-    const BoneLimit* const limit = (*limit_of)[tree.joint_bones[i]];
+    const BoneLimit* const limit = given_for(i);
     const ragdoll::Joint joint =
         limit != nullptr
             ? ragdoll::given_joint(character.skeleton, *rest, *limit, parent.bone, body.bone)

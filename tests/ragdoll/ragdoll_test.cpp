@@ -180,6 +180,29 @@ TEST(Ragdoll, given_limits_count_before_those_of_clips_and_are_widened_to_the_po
   EXPECT_NEAR(bent.bodies[1].limit.upper, 1.6, 1e-5);
 }
 
+TEST(Ragdoll, limits_of_the_whole_serve_its_pieces) {
+  const Character knee = make_knee();
+  const ModelPose pose = *rest_pose(knee);
+  const Ragdoll whole = ragdoll_of(knee, pose);
+  std::vector<BoneLimit> limits;
+  for (const RagdollBody& body : whole.bodies)
+    if (body.parent != kNone) limits.push_back(body.limit);
+  Character without_clips = knee;
+  without_clips.clips.clear();
+  RagdollOptions options;
+  options.limits = limits;
+  const Ragdoll again = ragdoll_of(without_clips, pose, options);
+  ASSERT_EQ(again.bodies.size(), whole.bodies.size());
+  for (std::size_t i = 1; i < whole.bodies.size(); ++i) {
+    EXPECT_EQ(again.bodies[i].limit.kind, whole.bodies[i].limit.kind);
+    EXPECT_NEAR(again.bodies[i].limit.lower, whole.bodies[i].limit.lower, 1e-9);
+    EXPECT_NEAR(again.bodies[i].limit.upper, whole.bodies[i].limit.upper, 1e-9);
+    EXPECT_LT((again.bodies[i].body_from_joint.matrix() - whole.bodies[i].body_from_joint.matrix())
+                  .norm(),
+              1e-6);
+  }
+}
+
 TEST(Ragdoll, a_severed_limb_becomes_bodies_of_its_bones_alone) {
   const auto tube = std::make_shared<const Character>(make_tube(24, 16, 5));
   auto model = TornModel::create(tube);

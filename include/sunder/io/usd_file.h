@@ -24,8 +24,8 @@ struct UsdLayer {
 
 /// Writes a character as USD with UsdSkel: one SkelRoot with a Skeleton, a Mesh per mesh, blend
 /// shapes, a SkelAnimation per clip, materials as UsdPreviewSurface. Metres, y up, as model space.
-/// What is written how, and what USD cannot hold: docs/usd.md. Nothing is patched: of the source
-/// only the materials, with their images, are taken. The same input gives the same bytes.
+/// The file is made anew: of the source only the materials and their images are used. The same
+/// input gives the same bytes. docs/usd.md lists what is written, and what USD cannot hold.
 ///
 /// @param character        as for save_glb(): a valid character, retired triangles are left out.
 /// @param loaded           `source`: the document whose materials the submeshes name, or null;

@@ -22,14 +22,16 @@ struct RagdollOptions {
   /// So does a body with a smaller share of the mass, such as a finger of a whole body; 0 to 1.
   double least_share = 0.002;
   MassOptions mass;  ///< Of the whole; its bodies have masses in proportion to their volumes.
-  /// Of joints: at most one per bone, as PosePuller::create(). Others turn as the clips show:
-  /// limits_of_clips(). All are widened to the starting pose.
+  /// Limits of joints: at most one per bone, as for PosePuller::create(). A joint without one turns
+  /// as far as the clips show, in up to 1,536 poses, which takes most of the time: make the ragdoll
+  /// of the whole character once, and give the limits of its bodies to those of its pieces. All are
+  /// widened to the starting pose.
   std::span<const BoneLimit> limits;
 };
 
 /// A rigid body, which moves a bone, and its joint to the body above.
 struct RagdollBody {
-  std::uint32_t bone = kNone;    ///< The topmost of the bones that it moves.
+  std::uint32_t bone = kNone;    ///< The bone that moves its part of the surface.
   std::uint32_t parent = kNone;  ///< Body to which the joint ties it, before it in the list; kNone:
                                  ///< there is no joint, and what follows `shape` has no meaning.
   double mass = 0.0;             ///< Kilograms, > 0.
@@ -62,7 +64,7 @@ struct Ragdoll {
 /// @param pose       in which it stands.
 /// @return the failures of compute_mass(); the first fault of the pose or a limit; empty_input
 ///         without a triangle; invalid_argument for the options; limit_exceeded: out of memory.
-/// O(T log T + keys), allocates.
+/// O(T log T + bones), and O(poses x (bones + keys)) if a joint has no limit given; allocates.
 [[nodiscard]] SUNDER_API Result<Ragdoll> make_ragdoll(const Character& character,
                                                       const ModelPose& pose,
                                                       const RagdollOptions& options = {});
