@@ -690,6 +690,14 @@ typedef struct sunder_bore {
   uint32_t reserved;
 } sunder_bore;
 
+/* Closes wounds whose lips lie on one another: those of tears without width, and of cuts. */
+typedef struct sunder_weld {
+  uint32_t struct_size;
+  uint32_t place_count;
+  const double* places; /* 3 numbers each: only the wound nearest to each is closed; or null: all */
+  double reach;         /* how far from these places along the wound; 0: to its ends */
+} sunder_weld;
+
 enum { SUNDER_PIECE_FROZEN = 0, SUNDER_PIECE_ANIMATED = 1, SUNDER_PIECE_VANISHES = 2 };
 enum { SUNDER_AXES_PRINCIPAL = 0, SUNDER_AXES_MODEL = 1 };
 enum { SUNDER_SOLID_CLOSED = 0, SUNDER_SOLID_FANS = 1, SUNDER_SOLID_SHELL = 2 };
@@ -718,6 +726,7 @@ typedef struct sunder_stroke_sampling {
 SUNDER_C_API sunder_tear_options sunder_default_tear_options(void);
 SUNDER_C_API sunder_cut sunder_default_cut(void);
 SUNDER_C_API sunder_bore sunder_default_bore(void);
+SUNDER_C_API sunder_weld sunder_default_weld(void);
 SUNDER_C_API sunder_detach sunder_default_detach(void);
 SUNDER_C_API sunder_stroke_sampling sunder_default_stroke_sampling(void);
 
@@ -736,6 +745,9 @@ SUNDER_C_API sunder_status sunder_submit_cut(sunder_scene scene, sunder_instance
 SUNDER_C_API sunder_status sunder_submit_drill(sunder_scene scene, sunder_instance instance,
                                                const sunder_bore* bore, uint32_t flags,
                                                sunder_command* command);
+SUNDER_C_API sunder_status sunder_submit_weld(sunder_scene scene, sunder_instance instance,
+                                              const sunder_weld* weld, uint32_t flags,
+                                              sunder_command* command);
 /* A stroke over several frames. */
 SUNDER_C_API sunder_status sunder_submit_begin_stroke(sunder_scene scene, sunder_instance instance,
                                                       const sunder_blade* blade,

@@ -96,6 +96,13 @@ Result<TearReport> CharacterInstance::drill(const ModelPose& pose, const Bore& b
       change, [&](ChangeRecord* record) { return state_->torn->model.drill(pose, bore, record); });
 }
 
+Result<TearReport> CharacterInstance::weld(const ModelPose& pose, const Weld& weld,
+                                           ChangeRecord* change) {
+  const MemoryScope scope(state_->memory);
+  return state_->change(
+      change, [&](ChangeRecord* record) { return state_->torn->model.weld(pose, weld, record); });
+}
+
 Result<DetachedPiece> CharacterInstance::detach(const ModelPose& pose, const PiecePlace& place,
                                                 const DetachOptions& options, ChangeRecord* change,
                                                 PieceTissue* tissue) {

@@ -23,6 +23,7 @@ void add(const Operation& operation, MemoryUse& use) {
   }
   if (const auto* cut = std::get_if<CutOperation>(&operation)) add(cut->pose, use);
   if (const auto* drill = std::get_if<DrillOperation>(&operation)) add(drill->pose, use);
+  if (const auto* weld = std::get_if<WeldOperation>(&operation)) add(weld->pose, use);
 }
 
 }  // namespace

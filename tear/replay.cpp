@@ -41,6 +41,11 @@ class Replay {
     if (!pose) return pose.error();
     return step([&](ChangeRecord* change) { return model_.drill(*pose, operation.bore, change); });
   }
+  Result<TearReport> operator()(const WeldOperation& operation) const {
+    const Result<ModelPose> pose = make_pose(model_.character(), operation.pose);
+    if (!pose) return pose.error();
+    return step([&](ChangeRecord* change) { return model_.weld(*pose, operation.weld, change); });
+  }
   Result<TearReport> operator()(const DetachOperation& operation) const {
     const Result<ModelPose> pose = make_pose(model_.character(), operation.pose);
     if (!pose) return pose.error();

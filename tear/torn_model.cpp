@@ -16,6 +16,7 @@
 #include "tear/pieces/describe_piece.h"
 #include "tear/surface/compact.h"
 #include "tear/surface/weight_change.h"
+#include "tear/weld/weld.h"
 
 namespace sunder {
 Result<TornModel> TornModel::create(std::shared_ptr<const Character> source,
@@ -106,6 +107,24 @@ Result<TearReport> TornModel::drill(const ModelPose& pose, const Bore& bore, Cha
     tear::drill_surface(bore, state.workpiece(), outcome);
   };
   return state.perform<DrillOperation>({pose, weights, change, bore.wall}, write_entry, work);
+}
+
+Result<TearReport> TornModel::weld(const ModelPose& pose, const Weld& weld, ChangeRecord* change) {
+  if (Status status = unpack(); !status) return status;
+  State& state = *state_;
+  if (Status status = state.may_begin(); !status) return status;
+  if (Status status = tear::validate_weld(weld); !status) return status;
+  const auto write_entry = [&](WeldOperation& entry) { entry.weld = weld; };
+  const auto work = [&](tear::Outcome& outcome) {
+    tear::weld_surface(weld, state.workpiece(), outcome);
+  };
+  return state.perform<WeldOperation>({pose, state.weights, change}, write_entry, work);
+}
+
+std::span<const std::array<std::uint32_t, 2>> TornModel::scars() const {
+  const State* const torn = torn_state();
+  if (torn == nullptr) return {};
+  return torn->editor.connectivity.scars();
 }
 
 Result<PieceDescription> TornModel::describe_piece(const TornPiece& piece) const {

@@ -67,9 +67,15 @@ struct TearRequest {
     bool takes_props = true;            ///< Whether separate parts come off with the limb.
     std::string material = {};          ///< Name of the caps' or walls' material; empty: none.
   };
-  std::filesystem::path model, operations;      ///< No log: empty.
-  std::vector<Aimed> aimed;                     ///< In the order in which they were given.
-  std::optional<RobotTearRequest> robot;        ///< Tears after all others.
+  std::filesystem::path model, operations;  ///< No log: empty.
+  std::vector<Aimed> aimed;                 ///< In the order in which they were given.
+  std::optional<RobotTearRequest> robot;    ///< Tears after all others.
+  /// A weld of the command line, and the option that gives it.
+  struct Welding {
+    Operation operation;
+    std::string option;
+  };
+  std::vector<Welding> welds;                   ///< After all tears.
   std::optional<std::filesystem::path> output;  ///< Only empty in a dry run.
   SaveOptions save;                             ///< How influences are written.
   /// Chooses influences and formats in place of `save`.

@@ -36,7 +36,7 @@ CaseFunction planes_at_vertices, plane_bundles, plane_stacks;
 CaseFunction winding_strokes, retraced_strokes, strokes_that_end_anywhere, far_turns, long_strokes,
     tiny_strokes;
 // Long sequences (sequence_cases.cpp).
-CaseFunction many_cuts, one_region;
+CaseFunction many_cuts, one_region, welded_wounds;
 // Limits of memory and size (limit_cases.cpp).
 CaseFunction every_capacity, failing_allocations, vertex_counts;
 // Weights, tissue, scenes, files (weight_cases.cpp, tissue_cases.cpp, …).

@@ -45,4 +45,17 @@ void one_region(std::uint64_t seed, const Steps& steps, CaseReport& report) {
   });
 }
 
+void welded_wounds(std::uint64_t seed, const Steps& steps, CaseReport& report) {
+  Random random = random_of(seed, 0);
+  TornSubject subject(test::random_character(random), report);
+  run_steps(subject, seed, steps, 12, [](TornSubject& of, Random& numbers, std::uint32_t) {
+    if (numbers.index(3) == 0)
+      of.operate(test::random_weld(of.model(), numbers));
+    else if (numbers.index(4) == 0)
+      of.operate(test::random_operation(of.model(), numbers));
+    else
+      of.operate(test::random_lossless_operation(of.model(), numbers, true));
+  });
+}
+
 }  // namespace sunder::stress

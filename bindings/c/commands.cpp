@@ -139,6 +139,8 @@ sunder_bore sunder_default_bore(void) {
   return bore;
 }
 
+sunder_weld sunder_default_weld(void) { return {sizeof(sunder_weld), 0, nullptr, 0.0}; }
+
 sunder_detach sunder_default_detach(void) {
   const sunder::DetachOptions defaults;
   sunder_detach detach = {};
@@ -186,6 +188,17 @@ sunder_status sunder_submit_drill(sunder_scene scene, sunder_instance instance,
     sunder::Bore hole;
     SUNDER_C_TRY(read_bore(bore, hole));
     return submit(scene, instance, hole, flags, command);
+  });
+}
+
+sunder_status sunder_submit_weld(sunder_scene scene, sunder_instance instance,
+                                 const sunder_weld* weld, uint32_t flags, sunder_command* command) {
+  return guarded([&]() -> sunder_status {
+    SUNDER_C_TRY(check_struct(weld, "weld"));
+    sunder::Weld wanted;
+    wanted.reach = weld->reach;
+    SUNDER_C_TRY(read_places(weld->places, weld->place_count, "places", wanted.places));
+    return submit(scene, instance, std::move(wanted), flags, command);
   });
 }
 

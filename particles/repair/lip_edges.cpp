@@ -45,6 +45,16 @@ class LipEdges {
     keep(beyond);
   }
 
+  /// Stores the border edges at a point, and forgets the one that left it and is none any more.
+  void revise(Index point) {
+    const Index leaving = border_.leaving(point), arriving = border_.arriving(point);
+    if (leaving == kNone || edit_.structure().character.border.has(leaving, edit_.model()))
+      forget(point);
+    else
+      keep(leaving);
+    if (arriving != kNone) keep(arriving);
+  }
+
  private:
   [[nodiscard]] bool is_torn(Index point) const {
     return points_.lip_points[point].tear != kNone || point >= edit_.first_new_point();
@@ -102,5 +112,7 @@ void renew_lip_edges(StructureEdit& edit, std::span<const Index> lips,
         !(has_lips && points.lip_points[point].tear == edit.tear()))
       edges.renew(point);
 }
+
+void revise_lip_edges(StructureEdit& edit, Index point) { LipEdges(edit).revise(point); }
 
 }  // namespace sunder::particles

@@ -9,4 +9,7 @@ namespace sunder::particles {
 /// @param lost  points that no longer have a face.
 void renew_lip_edges(StructureEdit& edit, std::span<const Index> lips, std::span<const Index> lost);
 
+/// Updates the edges of lips at a point between which the surface was closed.
+void revise_lip_edges(StructureEdit& edit, Index point);
+
 }  // namespace sunder::particles

@@ -208,6 +208,10 @@ RewrittenFaces find_rewritten_faces(const TornModel& model, const Structure& str
   for (Index point = structure.points.count(); point < surface.point_count(); ++point)
     if (surface.point_corner[point] != kNone)
       surface.for_each_in_fan(surface.point_corner[point], add_if_kept);
+  for (const ChangeRecord& change : changes)
+    for (const WeldedPoint& point : change.welded)
+      if (surface.point_corner[point.kept] != kNone)
+        surface.for_each_in_fan(surface.point_corner[point.kept], add_if_kept);
   if (found.faces.size() > rewritten_count) sort_once();
   return found;
 }

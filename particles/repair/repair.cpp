@@ -4,6 +4,7 @@
 #include "particles/clusters/gradients.h"
 #include "particles/repair/changed_weights.h"
 #include "particles/repair/cover.h"
+#include "particles/repair/follow_weld.h"
 #include "particles/repair/lip_band.h"
 #include "particles/repair/lip_edges.h"
 #include "particles/repair/lip_points.h"
@@ -61,10 +62,12 @@ void follow_operation(const TornModel& model, Structure& structure,
   append_points(edit);
   follow_changed_weights(edit, changes);
   std::vector<Index> lost = leave_lost_points(edit, changes);
+  leave_welded_points(edit, changes, lost);
   renew_vertex_points(edit, changes, lost);
   const std::vector<Index> lips = put_points_on_lips(edit, changes);
   spread_to_new_points(edit, lips.empty() ? kNone : edit.tear());
   if (!lips.empty()) choose_sides(edit, lips);
+  reach_across_welds(edit, changes);
   const bool is_final = !model.is_in_stroke();
   const std::vector<Index> of_band = is_final ? all_lips(edit) : lips;
   if (!of_band.empty()) {
@@ -75,6 +78,7 @@ void follow_operation(const TornModel& model, Structure& structure,
     if (!lost.empty() || is_band_outdated) begin_hole(edit);
   }
   renew_lip_edges(edit, lips, lost);
+  renew_welded_lip_edges(edit, changes);
   edit.finish(rewritten);
 }
 

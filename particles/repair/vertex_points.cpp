@@ -95,15 +95,20 @@ void renew_vertex_points(StructureEdit& edit, std::span<const ChangeRecord> chan
   for (Index corner = 3 * structure.tears.triangle_count; corner < surface.corner_point.size();
        ++corner)
     if (!surface.has_repeated_point(corner / 3)) renew(corner);
+  for (const ChangeRecord& change : changes)
+    for (const WeldedPoint& point : change.welded)
+      if (surface.point_corner[point.kept] != kNone)
+        surface.for_each_in_fan(surface.point_corner[point.kept], renew);
   const bool has_shared = !structure.vertex_points.shared.empty();
-  const auto renew_before = [&](const MeshChange& of_mesh) {
+  const auto renew_before = [&](const MeshChange& of_mesh, bool may_lose) {
     for_each_corner_before(of_mesh, [&](Index vertex) {
       if (has_shared) renew_shared_vertex(edit, of_mesh.mesh, vertex, lost);
-      if (!of_mesh.retired.empty()) forget_if_unused(edit, of_mesh.mesh, vertex);
+      if (may_lose) forget_if_unused(edit, of_mesh.mesh, vertex);
     });
   };
   for (const ChangeRecord& change : changes)
-    for (const MeshChange& of_mesh : change.meshes) renew_before(of_mesh);
+    for (const MeshChange& of_mesh : change.meshes)
+      renew_before(of_mesh, !of_mesh.retired.empty() || !change.welded.empty());
 }
 
 }  // namespace sunder::particles

@@ -56,6 +56,12 @@ inline constexpr double kSteepSine = 1e-6;
 /// Axes are turned towards a second direction that differs by more.
 inline constexpr double kAxisSine = 1e-3;
 
+// ---- Welds.
+
+/// Ends of lips that differ by less are one place: where a wound crosses both lips of another one,
+/// each crossing is computed and rounded by itself. Snapping keeps other points much farther apart.
+inline constexpr double kWeldBarycentric = 1e-6;
+
 // ---- Snapping. A place that is nearer to an end of an edge snaps to it.
 
 /// Outlines of gaps: less than rounding shows.

@@ -34,6 +34,14 @@ SUNDER_API std::uint32_t append_vertex_copy(std::uint32_t vertex, Mesh& mesh);
 SUNDER_API void copy_surface_point(const Mesh& like_mesh, std::uint32_t like, std::uint32_t vertex,
                                    Mesh& mesh);
 
+/// Whether two vertices have the same position, morph displacements and weights, bit for bit.
+[[nodiscard]] SUNDER_API bool is_same_surface_point(const Mesh& mesh, std::uint32_t vertex,
+                                                    const Mesh& other_mesh, std::uint32_t other);
+
+/// Whether two vertices of a mesh differ in nothing but their value of _TEARSIDE.
+[[nodiscard]] SUNDER_API bool is_same_but_for_tear_side(const Mesh& mesh, std::uint32_t vertex,
+                                                        std::uint32_t other);
+
 /// The number of vertices that can be appended before an array of `mesh`, other than the
 /// influences, has to grow.
 [[nodiscard]] SUNDER_API std::size_t room_for_vertices(const Mesh& mesh);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "tear/surface/edit_log.h"
 #include "tear/surface/stage.h"
 #include "tear/surface/tear_sides.h"
@@ -50,6 +52,9 @@ class Connectivity {
     columns_.surface.appended_side.push_back(sides_.take_next());
     return columns_.surface.point_count() - 1;
   }
+  /// Remembers the points of an edge that was welded.
+  void append_scar(const std::array<Index, 2>& points) { columns_.scars.push_back(points); }
+  [[nodiscard]] std::span<const std::array<Index, 2>> scars() const { return columns_.scars; }
   /// A triangle that is split from `like`. It has no twins.
   Index append_part(Index like, const std::array<Index, 3>& points, const Triangle& vertices);
   /// The triangle of a filling. It has no twins.

@@ -1,6 +1,7 @@
 #include "tear/surface/describe_change.h"
 
 #include <algorithm>
+#include <array>
 
 #include "tear/surface/sort_by_index.h"
 
@@ -54,6 +55,54 @@ class RecordWriter {
   std::size_t count_ = 0;
 };
 
+/// Lists the points on edges that an operation welded.
+/// @param moved  each corner that got another point: (the point now, the point before).
+void list_welded(std::span<const std::array<Index, 2>> scars, std::span<const WeldedPoint> moved,
+                 std::vector<WeldedPoint>& welded) {
+  welded.assign(moved.begin(), moved.end());
+  for (const auto& scar : scars)
+    for (const Index point : scar) welded.push_back({point, point});
+  std::sort(welded.begin(), welded.end(), [](const WeldedPoint& a, const WeldedPoint& b) {
+    return std::array{a.kept, a.lost} < std::array{b.kept, b.lost};
+  });
+  welded.erase(std::unique(welded.begin(), welded.end()), welded.end());
+}
+
+void describe_welded(const EditLog::Mark& begin, const SurfaceEditor& editor,
+                     std::vector<WeldedPoint>& welded) {
+  welded.clear();
+  const auto scars = editor.connectivity.scars().subspan(begin.scars);
+  if (scars.empty()) return;
+  const Surface& surface = editor.surface();
+  ScratchVector<WeldedPoint> moved(&editor.scratch());
+  editor.log.for_each_first_change(begin, [&](const TriangleChange& before) {
+    for (Index k = 0; k < 3; ++k) {
+      const Index was = before.points[k], is = surface.corner_point[3 * before.triangle + k];
+      if (was != kNone && is != kNone && surface.point_corner[was] == kNone)
+        moved.push_back({is, was});
+    }
+  });
+  list_welded(scars, moved, welded);
+}
+
+void describe_welded(const SurfaceEditor::Redo& redo, const SurfaceEditor& editor,
+                     std::vector<WeldedPoint>& welded) {
+  welded.clear();
+  if (redo.tails.edit.scars.empty()) return;
+  ScratchVector<Index> lost(&editor.scratch());
+  for (const auto& [point, corner] : redo.known_corners)
+    if (corner == kNone) lost.push_back(point);
+  std::sort(lost.begin(), lost.end());
+  ScratchVector<WeldedPoint> moved(&editor.scratch());
+  for (const TriangleChange& after : redo.changed)
+    for (Index k = 0; k < 3; ++k) {
+      const Index was = editor.surface().corner_point[3 * after.triangle + k], is = after.points[k];
+      if (is != kNone && std::binary_search(lost.begin(), lost.end(), was))
+        moved.push_back({is, was});
+    }
+  list_welded(redo.tails.edit.scars, moved, welded);
+}
+
 void list_retired(std::span<const Triangle> appended, MeshChange& change) {
   for (std::size_t t = 0; t < appended.size(); ++t)
     if (is_retired(appended[t]))
@@ -68,6 +117,7 @@ void describe_change(const EditLog::Mark& begin, const SurfaceEditor& editor,
   const auto& meshes = editor.character().meshes;
   change.first_point = begin.points;
   change.point_count = surface.point_count() - begin.points;
+  describe_welded(begin, editor, change.welded);
 
   struct Changed {
     Index triangle;
@@ -134,6 +184,7 @@ void describe_redo(const SurfaceEditor::Redo& redo, const SurfaceEditor& editor,
   const auto& meshes = editor.character().meshes;
   change.first_point = surface.point_count();
   change.point_count = static_cast<Index>(redo.tails.edit.surface.point_corner.size());
+  describe_welded(redo, editor, change.welded);
   RecordWriter writer(editor, change);
   for (Index m = 0; m < meshes.size(); ++m) {
     const std::vector<Birth>& births = redo.tails.edit.meshes[m].births;

@@ -96,7 +96,8 @@ struct EditColumns {
   std::vector<Addition> additions;
   /// Changes by all operations that are done and not undone.
   std::vector<TriangleChange> triangle_changes;
-  std::vector<SideChange> side_changes;  ///< The same for _TEARSIDE.
+  std::vector<SideChange> side_changes;     ///< The same for _TEARSIDE.
+  std::vector<std::array<Index, 2>> scars;  ///< The points of each edge that was welded.
 };
 
 /// The element that one row of a column describes.
@@ -109,6 +110,7 @@ enum class Rows : std::uint8_t {
   kept_influences,
   triangle_changes,
   side_changes,
+  scars,
   mesh_vertices,  // from here on per mesh
   mesh_triangles,
   mesh_fillings,
@@ -171,6 +173,7 @@ void for_each_common_column(Visit visit, Tables&... of) {
   visit(Column{Rows::kept_influences}, of.edit.kept_influences...);
   visit(Column{Rows::triangle_changes}, of.edit.triangle_changes...);
   visit(Column{Rows::side_changes}, of.edit.side_changes...);
+  visit(Column{Rows::scars}, of.edit.scars...);
 }
 
 /// Calls visit(Column, values...) for each column of a mesh.

@@ -13,7 +13,8 @@ EditLog::Mark EditLog::mark(Index next_side, Index opened_changes) {
                   next_side,
                   static_cast<Index>(columns_.triangle_changes.size()),
                   static_cast<Index>(columns_.side_changes.size()),
-                  opened_changes};
+                  opened_changes,
+                  static_cast<Index>(columns_.scars.size())};
   return newest_mark_;
 }
 
@@ -36,6 +37,14 @@ void EditLog::append(Index triangle, Index previous) {
   changes.push_back(describe(triangle));
   changes.back().previous = previous;
   columns_.newest_change[triangle] = static_cast<Index>(changes.size() - 1);
+}
+
+Index EditLog::first_twin(Index half_edge) const {
+  const auto& changes = columns_.triangle_changes;
+  Index first = columns_.newest_change[half_edge / 3];
+  if (first == kNone) return columns_.surface.twin[half_edge];
+  while (changes[first].previous != kNone) first = changes[first].previous;
+  return changes[first].twins[half_edge % 3];
 }
 
 void EditLog::restore(const TriangleChange& change) {
@@ -86,6 +95,7 @@ RowCounts EditLog::rows_since(const Mark& mark) const {
   rows[Rows::triangle_changes] =
       static_cast<Index>(columns_.triangle_changes.size()) - mark.triangle_changes;
   rows[Rows::side_changes] = static_cast<Index>(columns_.side_changes.size()) - mark.side_changes;
+  rows[Rows::scars] = static_cast<Index>(columns_.scars.size()) - mark.scars;
   return rows;
 }
 

@@ -22,6 +22,7 @@ class EditLog {
     Index triangle_changes = 0;
     Index side_changes = 0;
     Index opened_changes = 0;  ///< OpenedEdges::change_count().
+    Index scars = 0;
 
     bool operator==(const Mark&) const = default;
   };
@@ -53,6 +54,19 @@ class EditLog {
   }
   /// The current state of a triangle.
   [[nodiscard]] TriangleChange describe(Index triangle) const;
+  /// The twin of a half-edge before any operation changed its triangle. O(operations that did).
+  [[nodiscard]] Index first_twin(Index half_edge) const;
+  /// Calls visit(triangle) for each triangle of the source that is not as it was loaded, and for
+  /// each appended one.
+  template <class Visit>
+  void for_each_ever_changed(Visit visit) const {
+    const Index of_source = columns_.surface.first_triangle.back();
+    const auto& changes = columns_.triangle_changes;
+    for (Index i = 0; i < changes.size(); ++i)
+      if (changes[i].triangle < of_source && columns_.newest_change[changes[i].triangle] == i)
+        visit(changes[i].triangle);
+    for (Index t = of_source; t < columns_.surface.triangle_count(); ++t) visit(t);
+  }
   void restore(const TriangleChange& change);
   /// Drops the entries of an operation that is complete, apart from the first one of each triangle
   /// that existed before it: only marks inside the operation need the others.

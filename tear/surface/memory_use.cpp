@@ -80,6 +80,7 @@ void MemoryUse::add(const EditColumns& columns) {
   add(columns.additions);
   add(columns.triangle_changes);
   add(columns.side_changes);
+  add(columns.scars);
 }
 
 }  // namespace sunder::tear

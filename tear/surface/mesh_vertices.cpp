@@ -229,6 +229,42 @@ void copy_surface_point(const Mesh& like_mesh, std::uint32_t like, std::uint32_t
   weights.first[vertex + 1] = static_cast<std::uint32_t>(weights.influences.size());
 }
 
+bool is_same_surface_point(const Mesh& mesh, std::uint32_t vertex, const Mesh& other_mesh,
+                           std::uint32_t other) {
+  if (mesh.positions[vertex] != other_mesh.positions[other]) return false;
+  const std::size_t shared_targets =
+      std::min(mesh.morph_targets.size(), other_mesh.morph_targets.size());
+  for (std::size_t i = 0; i < shared_targets; ++i) {
+    const auto &of = mesh.morph_targets[i].position_deltas,
+               &of_other = other_mesh.morph_targets[i].position_deltas;
+    if (!of.empty() && !of_other.empty() && of[vertex] != of_other[other]) return false;
+  }
+  return std::ranges::equal(mesh.weights.of(vertex), other_mesh.weights.of(other));
+}
+
+bool is_same_but_for_tear_side(const Mesh& mesh, std::uint32_t vertex, std::uint32_t other) {
+  if (vertex == other) return true;
+  const auto differs = [&](const auto& values) {
+    return !values.empty() && values[vertex] != values[other];
+  };
+  if (!is_same_surface_point(mesh, vertex, mesh, other) || differs(mesh.normals) ||
+      differs(mesh.tangents) || std::ranges::any_of(mesh.uv_sets, differs) ||
+      std::ranges::any_of(mesh.color_sets, differs))
+    return false;
+  const auto custom_differs = [&](const CustomAttribute& attribute) {
+    if (attribute.name == kTearSideAttribute) return false;
+    const std::size_t count = attribute.components;
+    return !std::equal(attribute.values.begin() + std::ptrdiff_t(count * vertex),
+                       attribute.values.begin() + std::ptrdiff_t(count * (vertex + 1)),
+                       attribute.values.begin() + std::ptrdiff_t(count * other));
+  };
+  const auto target_differs = [&](const MorphTarget& target) {
+    return differs(target.normal_deltas) || differs(target.tangent_deltas);
+  };
+  return !std::ranges::any_of(mesh.custom_attributes, custom_differs) &&
+         !std::ranges::any_of(mesh.morph_targets, target_differs);
+}
+
 void set_position_and_influences(const Vec3f& position, std::span<const Influence> influences,
                                  std::uint32_t vertex, Mesh& mesh) {
   mesh.positions[vertex] = position;

@@ -27,7 +27,7 @@ bool comes_with_vertices(Rows rows) {
 /// Whether the capacity limits the number of rows, rather than what they depend on.
 bool is_limited(Rows rows) {
   return rows != Rows::side_changes && rows != Rows::mesh_fillings && rows != Rows::additions &&
-         rows != Rows::triangle_changes;
+         rows != Rows::triangle_changes && rows != Rows::scars;
 }
 
 bool comes_with_triangles(Rows rows) {
@@ -166,6 +166,14 @@ void Room::find_for_additions(Index mesh) {
       make_in_columns(mesh, 2, "walls and caps", [](Rows rows) { return rows == Rows::additions; });
   known_.additions_of = mesh;
   known_.additions = std::min(fillings, additions / 2);
+}
+
+void Room::make_for_welds(std::size_t edges, std::size_t side_changes) {
+  const auto make = [&](auto& values, std::size_t more) {
+    if (values.capacity() - values.size() < more) grow(values, more, nullptr);
+  };
+  make(columns_.edit.scars, edges);
+  make(columns_.edit.side_changes, side_changes);
 }
 
 void Room::make_for_kept_birth(std::size_t influences) {

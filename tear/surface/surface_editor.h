@@ -44,6 +44,9 @@ class SurfaceEditor {
   [[nodiscard]] ScratchMemory& scratch() const { return scratch_; }
 
   [[nodiscard]] Index vertex_at(Index corner) const { return connectivity.vertex_at(corner); }
+  [[nodiscard]] VertexRef vertex_ref_at(Index corner) const {
+    return {surface().triangle(corner / 3).mesh, vertex_at(corner)};
+  }
   [[nodiscard]] bool is_wall(Index face) const {
     return fillings.is_wall(surface().triangle(face));
   }

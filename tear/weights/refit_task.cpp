@@ -35,6 +35,8 @@ std::vector<ModelPose> poses_of(const Operation& operation) {
     keep_pose(cut->pose, poses);
   } else if (const auto* drill = std::get_if<DrillOperation>(&operation)) {
     keep_pose(drill->pose, poses);
+  } else if (const auto* weld = std::get_if<WeldOperation>(&operation)) {
+    keep_pose(weld->pose, poses);
   }
   return poses;
 }

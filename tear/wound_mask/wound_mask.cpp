@@ -167,6 +167,19 @@ Result<TexelRectangle> WoundMask::State::update(const TornModel& model,
     for (const RewrittenTriangle& rewritten : of.rewritten) add(of.mesh, rewritten.triangle);
     for (std::uint32_t i = 0; i < of.triangle_count; ++i) add(of.mesh, of.first_triangle + i);
   }
+  // Where a weld joins different vertices, triangles keep them.
+  const auto add_around = [&](Index point) {
+    const Surface& now = model.surface();
+    if (point >= now.point_count() || now.point_corner[point] == kNone) return;
+    now.for_each_in_fan(now.point_corner[point], [&](Index corner) {
+      const tear::TriangleRef of = now.triangle(corner / 3);
+      add(of.mesh, of.triangle);
+    });
+  };
+  for (const WeldedPoint& of : change.welded) {
+    add_around(of.kept);
+    if (of.lost != of.kept) add_around(of.lost);
+  }
   sort_and_unite(origins);
   // A triangle keeps its corners where a tear runs along its edge and the other side gets new ones.
   const std::size_t count = origins.size();

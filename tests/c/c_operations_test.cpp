@@ -104,6 +104,10 @@ TEST(COperations, BoresHaveTheDescribedFields) {
   compare<Bore>("sunder_bore", sunder_default_bore());
 }
 
+TEST(COperations, WeldsHaveTheDescribedFields) {
+  compare<Weld>("sunder_weld", sunder_default_weld());
+}
+
 TEST(COperations, EnumeratorsAreThoseOfLogs) {
   EXPECT_EQ(SUNDER_LAYERS_ALL, static_cast<int>(last_named<Layers>()));
   EXPECT_EQ(SUNDER_WEIGHTS_EXACT, static_cast<int>(last_named<WeightPolicy>()));

@@ -2,6 +2,7 @@
 
 #include <sunder/scene/scene.h>
 
+#include <array>
 #include <cstring>
 #include <memory>
 #include <optional>
@@ -106,7 +107,7 @@ inline void submit_random(Twins& twins, Random& random) {
   const ModelPose& pose = twins.scene->find(twins.id)->pose();
   const Stroke stroke = random_stroke(character, pose, random, 0.3, 2 + random.index(4));
   SceneCommand command;
-  switch (random.index(6)) {
+  switch (random.index(7)) {
     case 0: {
       PlaneCut cut;
       cut.point = stroke[0].tip;
@@ -145,6 +146,20 @@ inline void submit_random(Twins& twins, Random& random) {
       c_bore.has_wall = bore.wall ? 1 : 0;
       EXPECT_DONE(sunder_submit_drill(twins.c_scene, twins.c_id, &c_bore, 0, nullptr));
       command = bore;
+      break;
+    }
+    case 4: {
+      Weld weld;
+      if (random.index(2) == 0) weld.places = {stroke[0].tip, stroke[1].tip};
+      if (random.index(2) == 0) weld.reach = 0.05;
+      const std::array numbers = {stroke[0].tip.x(), stroke[0].tip.y(), stroke[0].tip.z(),
+                                  stroke[1].tip.x(), stroke[1].tip.y(), stroke[1].tip.z()};
+      sunder_weld c_weld = sunder_default_weld();
+      c_weld.places = weld.places.empty() ? nullptr : numbers.data();
+      c_weld.place_count = static_cast<std::uint32_t>(weld.places.size());
+      c_weld.reach = weld.reach;
+      EXPECT_DONE(sunder_submit_weld(twins.c_scene, twins.c_id, &c_weld, 0, nullptr));
+      command = weld;
       break;
     }
     case 2:

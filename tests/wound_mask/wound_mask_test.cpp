@@ -236,6 +236,8 @@ TEST(WoundMask, follows_operations_and_undo) {
         ASSERT_TRUE(model.undo(&change));
       else if (choice == 1 && model.redo_count() > 0)
         ASSERT_TRUE(model.redo(&change));
+      else if (choice == 2 && model.undo_count() > 0)
+        ASSERT_TRUE(test::play(model, test::random_weld(model, random), &change));
       else if (!test::play(model, test::random_operation(model, random), &change))
         continue;
       const auto changed = mask.update(model, change);

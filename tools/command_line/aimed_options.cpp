@@ -14,6 +14,7 @@ namespace {
 constexpr const char* kSlash = "--slash";
 constexpr const char* kSever = "--sever";
 constexpr const char* kPuncture = "--puncture";
+constexpr const char* kWeld = "--weld";
 
 /// An option that may be given several times, with one value each.
 void add(CLI::App& verb, const char* name, const std::string& description) {
@@ -60,6 +61,14 @@ void add_aimed_operations(CLI::App& verb) {
           "; detach: take off what comes free, with hats, eyes and axes that move with it, or "
           "parts=none without them");
   add(verb, kPuncture, "Bore into the limb of a bone; " + fields_of(kPuncture));
+  verb.add_option_function<std::vector<std::string>>(
+          kWeld, [](const std::vector<std::string>&) {},
+          "Close wounds again, after all tears: all, or the one nearest to a place, as far along "
+          "it "
+          "as reach=METRES; docs/tear.md. Repeatable")
+      ->allow_extra_args(false)
+      ->type_name("all|X/Y/Z[,reach=METRES]")
+      ->group("Aimed operations");
   verb.add_option(
           "--pose",
           "The pose for the options above and for --robot: rest, bind, or a clip at a time in "
@@ -96,8 +105,14 @@ void read_aimed_operations(const CLI::App& verb, TearRequest& request) {
     if (!aimed) throw CLI::ValidationError(name + " " + text, std::string(aimed.error().text()));
     request.aimed.push_back(*aimed);
   }
-  if (pose && request.aimed.empty() && verb.count("--robot") == 0)
-    throw CLI::ValidationError("--pose", "needs --slash, --sever, --puncture or --robot");
+  if (verb.count(kWeld) > 0)
+    for (const std::string& text : verb.get_option(kWeld)->results()) {
+      const auto weld = parse_weld_option(text, pose);
+      if (!weld) throw CLI::ValidationError(kWeld + (" " + text), std::string(weld.error().text()));
+      request.welds.push_back({*weld, kWeld + (" " + text)});
+    }
+  if (pose && request.aimed.empty() && request.welds.empty() && verb.count("--robot") == 0)
+    throw CLI::ValidationError("--pose", "needs --slash, --sever, --puncture, --weld or --robot");
 }
 
 }  // namespace sunder::tools

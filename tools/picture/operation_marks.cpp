@@ -159,6 +159,14 @@ struct Drawer {
     marks.disc(near->point, kPlaceRadius, 20, kTip, Layer::on_top);
     return near->point;
   }
+  Vec3d operator()(const WeldOperation& operation) const {
+    if (operation.weld.places.empty()) return model.centre();
+    for (const Vec3d& place : operation.weld.places) {
+      marks.disc(place, kPlaceRadius + 1.5, 20, kEdge, Layer::on_top);
+      marks.disc(place, kPlaceRadius, 20, kTip, Layer::on_top);
+    }
+    return operation.weld.places.front();
+  }
   // Nothing of these is at a place.
   Vec3d operator()(const WeightsOperation&) const { return model.centre(); }
   Vec3d operator()(const UndoOperation&) const { return model.centre(); }
@@ -169,6 +177,8 @@ struct Drawer {
 bool has_place(const Operation& operation) {
   const auto* const detached = std::get_if<DetachOperation>(&operation);
   if (detached != nullptr) return std::holds_alternative<PieceNear>(detached->piece);
+  const auto* const weld = std::get_if<WeldOperation>(&operation);
+  if (weld != nullptr) return !weld->weld.places.empty();
   return !std::holds_alternative<WeightsOperation>(operation);
 }
 
@@ -196,6 +206,7 @@ struct Extremes {
     const auto* const near = std::get_if<PieceNear>(&operation.piece);
     return near == nullptr ? std::vector<Vec3d>() : std::vector<Vec3d>{near->point};
   }
+  std::vector<Vec3d> operator()(const WeldOperation& weld) const { return weld.weld.places; }
   std::vector<Vec3d> operator()(const WeightsOperation&) const { return {}; }
   std::vector<Vec3d> operator()(const UndoOperation&) const { return {}; }
   std::vector<Vec3d> operator()(const RedoOperation&) const { return {}; }

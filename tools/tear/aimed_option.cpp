@@ -127,6 +127,24 @@ Status read_detaching(Json& operation, TearRequest::Aimed& aimed) {
   return {};
 }
 
+/// The operation of a log with this one.
+Result<LoggedOperation> parse_one(const Json& operation) {
+  const Json log = {{"sunder_operations", 1}, {"operations", Json::array({operation})}};
+  auto parsed = parse_aimed_operations(dump_line(log));
+  if (parsed) return std::move(parsed->front());
+  // The place in the log says nothing to whom has written none.
+  std::string_view fault = parsed.error().text();
+  constexpr std::string_view kPlace = "/operations/0";
+  if (fault.starts_with(kPlace)) fault.remove_prefix(kPlace.size());
+  if (fault.starts_with("/") || fault.starts_with(":")) fault.remove_prefix(1);
+  while (fault.starts_with(' ')) fault.remove_prefix(1);
+  // "depth: depth is -1 m": the text of a range names its field.
+  if (const std::size_t colon = fault.find(": "); colon != std::string_view::npos)
+    if (fault.substr(colon + 2).starts_with(std::string(fault.substr(0, colon)) + " is "))
+      fault.remove_prefix(colon + 2);
+  return Status::failure(StatusCode::malformed_file, kNone, "%.200s", std::string(fault).c_str());
+}
+
 }  // namespace
 
 Result<TearRequest::Aimed> parse_aimed_option(const std::string& kind, const std::string& text,
@@ -150,23 +168,41 @@ Result<TearRequest::Aimed> parse_aimed_option(const std::string& kind, const std
     if (!posed) return posed.error();
     operation["pose"] = std::move(*posed);
   }
-  const Json log = {{"sunder_operations", 1}, {"operations", Json::array({operation})}};
-  auto parsed = parse_aimed_operations(dump_line(log));
-  if (parsed) {
-    aimed.operation = std::get<AimedOperation>(std::move(parsed->front()));
-    return aimed;
+  auto parsed = parse_one(operation);
+  if (!parsed) return parsed.error();
+  aimed.operation = std::get<AimedOperation>(std::move(*parsed));
+  return aimed;
+}
+
+Result<Operation> parse_weld_option(const std::string& text,
+                                    const std::optional<std::string>& pose) {
+  const std::vector<std::string> fields = split(text, ',');
+  Json operation = {{"op", kOpName<WeldOperation>}};
+  if (fields.front() != "all") {
+    const std::optional<Vec3d> place = direction_in(fields.front());
+    if (!place)
+      return Status::failure(StatusCode::malformed_file, kNone,
+                             "'%.60s' is no place; expected all or x/y/z in metres",
+                             fields.front().c_str());
+    operation["places"] = Json::array({{place->x(), place->y(), place->z()}});
   }
-  // The place in the log says nothing to whom has written none.
-  std::string_view fault = parsed.error().text();
-  constexpr std::string_view kPlace = "/operations/0";
-  if (fault.starts_with(kPlace)) fault.remove_prefix(kPlace.size());
-  if (fault.starts_with("/") || fault.starts_with(":")) fault.remove_prefix(1);
-  while (fault.starts_with(' ')) fault.remove_prefix(1);
-  // "depth: depth is -1 m": the text of a range names its field.
-  if (const std::size_t colon = fault.find(": "); colon != std::string_view::npos)
-    if (fault.substr(colon + 2).starts_with(std::string(fault.substr(0, colon)) + " is "))
-      fault.remove_prefix(colon + 2);
-  return Status::failure(StatusCode::malformed_file, kNone, "%.200s", std::string(fault).c_str());
+  for (std::size_t i = 1; i < fields.size(); ++i) {
+    const std::optional<double> reach =
+        fields[i].starts_with("reach=") ? number_in(fields[i].substr(6)) : std::nullopt;
+    if (!reach || !operation.contains("places"))
+      return Status::failure(StatusCode::malformed_file, kNone,
+                             "'%.60s' is no field; a place may be followed by reach=METRES",
+                             fields[i].c_str());
+    operation["reach"] = *reach;
+  }
+  if (pose) {
+    Result<Json> posed = pose_json(*pose);
+    if (!posed) return posed.error();
+    operation["pose"] = std::move(*posed);
+  }
+  auto parsed = parse_one(operation);
+  if (!parsed) return parsed.error();
+  return std::get<Operation>(std::move(*parsed));
 }
 
 }  // namespace sunder::tools

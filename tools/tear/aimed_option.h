@@ -19,4 +19,9 @@ namespace sunder::tools {
                                                             const std::string& text,
                                                             const std::optional<std::string>& pose);
 
+/// Reads a weld: "all", or "0.1/1.2/0,reach=0.05" for the wound nearest to a place, as far along it
+/// as that. @return as above.
+[[nodiscard]] Result<Operation> parse_weld_option(const std::string& text,
+                                                  const std::optional<std::string>& pose);
+
 }  // namespace sunder::tools

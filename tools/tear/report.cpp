@@ -29,6 +29,7 @@ Names names_of(const Operation& operation) {
     Names operator()(const CutOperation&) const { return {"cut", "cut", true}; }
     Names operator()(const DrillOperation&) const { return {"drill", "drilled", true}; }
     Names operator()(const DetachOperation&) const { return {"detach", "detached", false}; }
+    Names operator()(const WeldOperation&) const { return {"weld", "welded", true}; }
     Names operator()(const WeightsOperation&) const { return {"weights", "weighed", false}; }
     Names operator()(const UndoOperation&) const { return {"undo", "undone", false}; }
     Names operator()(const RedoOperation&) const { return {"redo", "redone", false}; }

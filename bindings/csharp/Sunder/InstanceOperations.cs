@@ -50,6 +50,22 @@ namespace Sunder
       return Submitted(NativeCalls.sunder_submit_drill(SceneNumber, Id, &bore, (uint)flags, &id), id);
     }
 
+    /// <summary>Closes wounds whose lips lie on one another. places: only the wound nearest to each, and no farther along it
+    /// than reach; 0: to its ends.</summary>
+    public Command CloseWounds(Vector3d[] places = null, double reach = 0, SubmitFlags flags = SubmitFlags.None)
+    {
+      Library.CheckNotEmpty(places, "places");
+      ulong id;
+      Weld weld = Weld.Default;
+      fixed (Vector3d* first = places)
+      {
+        weld.Places = (double*)first;
+        weld.PlaceCount = places == null ? 0 : (uint)places.Length;
+        weld.Reach = reach;
+        return Submitted(NativeCalls.sunder_submit_weld(SceneNumber, Id, &weld, (uint)flags, &id), id);
+      }
+    }
+
     /// <summary>Takes a connected piece off: Detachment.Default with a point, or a mesh and a triangle. bone: with a point, only
     /// triangles that this bone moves most.</summary>
     public Command Detach(Detachment detachment, string bone = null)

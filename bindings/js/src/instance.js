@@ -1,5 +1,5 @@
 // One character in a scene.
-import { SUNDER_IN_BACKGROUND, sunder_bore, sunder_collider, sunder_contact, sunder_cut, sunder_detach, sunder_force_tearing_options, sunder_layer_options, sunder_save_options, sunder_stroke_sampling, sunder_tear_options, sunder_wound_mask_options } from '../generated/calls.js';
+import { SUNDER_IN_BACKGROUND, sunder_bore, sunder_collider, sunder_contact, sunder_cut, sunder_detach, sunder_force_tearing_options, sunder_layer_options, sunder_save_options, sunder_stroke_sampling, sunder_tear_options, sunder_weld, sunder_wound_mask_options } from '../generated/calls.js';
 import { Hold, Layer, Stroke } from './handles_of_tissue.js';
 import { takeBytes, takeText } from './made_bytes.js';
 import { materialOf } from './materials.js';
@@ -11,6 +11,9 @@ import { takeReport, validationFields } from './validation.js';
 
 const contactOf = ({ has_hit, contact }) => (has_hit ? namesOf(contact) : null);
 const flagsOf = (background) => (background ? SUNDER_IN_BACKGROUND : 0);
+
+/** The numbers of points, one after the other. */
+const flat = (points, what) => Float64Array.from(points.flatMap((point) => [...triple(point, what)]));
 
 export class Instance {
   #scene;
@@ -55,7 +58,6 @@ export class Instance {
   }
   /** Cuts by a plane. @param plane  { point, normal }; `polygon`: corners that bound it; `sections`: only those nearest to places */
   cut({ polygon, sections, bone, background = false, firstHit, ...options }) {
-    const flat = (points, what) => Float64Array.from(points.flatMap((point) => [...triple(point, what)]));
     const fields = fieldsOf(sunder_cut, options);
     if (polygon) Object.assign(fields, { bounds: flat(polygon, 'polygon'), bound_count: polygon.length });
     if (sections) Object.assign(fields, { sections: flat(sections, 'sections'), section_count: sections.length });
@@ -67,6 +69,12 @@ export class Instance {
   }
   /** Bores a round hole. @param bore  { origin, direction, radius, depth } */
   drill({ background = false, ...options }) { return this.#submit('sunder_submit_drill', fieldsOf(sunder_bore, options), flagsOf(background)); }
+  /** Closes wounds whose lips lie on one another. @param options  { places, reach }: only the wounds nearest to places, so far along them */
+  weld({ places, background = false, ...options } = {}) {
+    const fields = fieldsOf(sunder_weld, options);
+    if (places) Object.assign(fields, { places: flat(places, 'places'), place_count: places.length });
+    return this.#submit('sunder_submit_weld', fields, flagsOf(background));
+  }
   /** Takes a connected piece off. @param piece  { mesh, triangle } or { point, bone }; its Result has the piece */
   detach({ bone, ...options }) {
     const fields = fieldsOf(sunder_detach, options);

@@ -166,6 +166,12 @@ export interface BoreOptions extends FillingOptions {
   origin: Vector3Like; direction: Vector3Like; radius: number; depth: number;
   wall?: boolean; chordTolerance?: number; wallMaterial?: number;
 }
+export interface WeldOptions {
+  /** Only the wound nearest to each is closed. */
+  places?: Vector3Like[];
+  /** How far from these places along the wound, metres; 0: to its ends. */
+  reach?: number; background?: boolean;
+}
 export interface DetachOptions {
   mesh?: number; triangle?: number; point?: Vector3Like; bone?: string;
   motion?: 'frozen' | 'animated' | 'vanishes'; axes?: 'principal' | 'model'; openSurfaces?: 'fans' | 'shell';
@@ -265,6 +271,7 @@ export class Instance {
   beginStroke(position: Blade, options?: StrokeOptions): Stroke;
   cut(plane: CutOptions): Command;
   drill(bore: BoreOptions): Command;
+  weld(options?: WeldOptions): Command;
   detach(piece: DetachOptions): Command;
   undo(): Command;
   redo(): Command;

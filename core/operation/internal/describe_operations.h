@@ -136,6 +136,20 @@ void describe(V& v, Is<DetachOperation> auto& of) {
 }
 
 template <class V>
+void describe(V& v, Is<Weld> auto& of) {
+  v({"places", "At least one place. Only the wound nearest to each of them is closed", Use::if_set,
+     "all wounds"},
+    of.places, List{"points", 1, "places need at least one; without them all wounds are closed"});
+  v({"reach", "How far from those places along the wound. 0: to its ends.", Use::if_set}, of.reach,
+    field::length_from_zero());
+}
+template <class V>
+void describe(V& v, Is<WeldOperation> auto& of) {
+  v({"pose", "The pose in which places and lengths are measured."}, of.pose);
+  describe(v, of.weld);
+}
+
+template <class V>
 void describe(V& v, Is<WeightsOperation> auto& of) {
   v({"first", "Index of the first operation, counted from 0 over those not undone."},
     of.first_operation, Integer{"an operation's index"});

@@ -45,6 +45,8 @@ inline constexpr const char* kOpName<DrillOperation> = "drill";
 template <>
 inline constexpr const char* kOpName<DetachOperation> = "detach";
 template <>
+inline constexpr const char* kOpName<WeldOperation> = "weld";
+template <>
 inline constexpr const char* kOpName<WeightsOperation> = "weights";
 template <>
 inline constexpr const char* kOpName<UndoOperation> = "undo";

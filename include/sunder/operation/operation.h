@@ -92,6 +92,19 @@ struct Bore {
   bool operator==(const Bore&) const = default;
 };
 
+/// Closes wounds again, in model space. Lips are joined where they lie on one another in bind
+/// space: those of tears without width and of cuts. A lip that a gap or bore made has nothing to
+/// lie on.
+struct Weld {
+  /// Places in model space. If not empty, only the wound nearest to each of them is closed.
+  std::vector<Vec3d> places;
+  /// How far from those places along the wound, posed metres. 0: to its ends. A wound that is
+  /// closed a bit farther in each frame heals.
+  double reach = 0.0;
+
+  bool operator==(const Weld&) const = default;
+};
+
 /// A tear, `{"op": "tear"}` in a log.
 struct TearOperation {
   /// The pose changes to `pose` at blade `blade`: the segment that ends with that blade is torn in
@@ -143,6 +156,12 @@ struct DetachOperation {
   PiecePlace piece;
 };
 
+/// Closes wounds, `{"op": "weld"}` in a log.
+struct WeldOperation {
+  PoseSpec pose;
+  Weld weld;
+};
+
 /// Assigns new weights to points that earlier operations created, `{"op": "weights"}` in a log.
 struct WeightsOperation {
   std::uint32_t first_operation = 0;      ///< Counted from the oldest one that is not undone.
@@ -163,6 +182,6 @@ struct RedoOperation {
 };
 
 using Operation = std::variant<TearOperation, CutOperation, DrillOperation, WeightsOperation,
-                               UndoOperation, RedoOperation, DetachOperation>;
+                               UndoOperation, RedoOperation, DetachOperation, WeldOperation>;
 
 }  // namespace sunder

@@ -86,6 +86,7 @@ class SUNDER_API CharacterInstance {
   Result<TearReport> cut(const ModelPose& pose, const PlaneCut& cut,
                          ChangeRecord* change = nullptr);
   Result<TearReport> drill(const ModelPose& pose, const Bore& bore, ChangeRecord* change = nullptr);
+  Result<TearReport> weld(const ModelPose& pose, const Weld& weld, ChangeRecord* change = nullptr);
   /// @param tissue  optional; written, empty without a soft body: how the piece moves.
   Result<DetachedPiece> detach(const ModelPose& pose, const PiecePlace& place,
                                const DetachOptions& options = {}, ChangeRecord* change = nullptr,

@@ -51,11 +51,11 @@ struct DetachCommand {
 struct UndoCommand {};
 struct RedoCommand {};
 
-/// An operation on an instance. A PlaneCut cuts, a Bore drills, a WeightsOperation assigns new
-/// weights to torn vertices.
+/// An operation on an instance. A PlaneCut cuts, a Bore drills, a Weld closes wounds, a
+/// WeightsOperation assigns new weights to torn vertices.
 using SceneCommand = std::variant<TearCommand, PlaneCut, Bore, BeginStrokeCommand,
                                   ExtendStrokeCommand, EndStrokeCommand, CancelStrokeCommand,
-                                  DetachCommand, UndoCommand, RedoCommand, WeightsOperation>;
+                                  DetachCommand, UndoCommand, RedoCommand, WeightsOperation, Weld>;
 
 /// How the tissue of a piece moved when it was detached.
 struct PieceTissue {

@@ -90,6 +90,14 @@ struct Rims {
   bool operator==(const Rims&) const = default;
 };
 
+/// A surface point on an edge that a weld closed, and the one that gave it its faces and has none
+/// any more; the same one at the tips of a wound, where there was one only.
+struct WeldedPoint {
+  std::uint32_t kept = 0, lost = 0;
+
+  bool operator==(const WeldedPoint&) const = default;
+};
+
 /// The changes by one call, for engine buffers, particles, bounds and other mirrors of the model.
 struct ChangeRecord {
   std::uint32_t first_point = 0, point_count = 0;  ///< Surface points appended.
@@ -100,6 +108,8 @@ struct ChangeRecord {
   /// For a gap: the points on its two sides. All have a face, and lie on a border or on a rim at
   /// which a wall starts. Empty for a bore, which has one rim and no sides.
   Rims rims;
+  /// Of a weld, ascending. Its undo lists the same points, which it separates again.
+  std::vector<WeldedPoint> welded;
 };
 
 }  // namespace sunder

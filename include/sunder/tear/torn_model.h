@@ -7,6 +7,7 @@
 #include <sunder/tear/report.h>
 #include <sunder/tear/torn_asset.h>
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -92,6 +93,18 @@ class SUNDER_API TornModel {
   /// Removes all layers of the posed surface inside a bore.
   /// @return as tear(). O(faces crossed and removed).
   Result<TearReport> drill(const ModelPose& pose, const Bore& bore, ChangeRecord* change = nullptr);
+
+  /// Closes wounds: lips that lie on one another in bind space become one surface again, walls and
+  /// caps between them go. Where one lip has a point that the other lacks, because another wound
+  /// crosses it, both have it afterwards. The result lies where the untorn surface does, as far as
+  /// the weights of the points do; scars() lists its edges. docs/tear.md describes the method.
+  /// @return as tear(); runs: the joined runs of edges, 0 if there was nothing to close; blocked:
+  ///         edges of lips that could not be joined. O(triangles that operations changed).
+  Result<TearReport> weld(const ModelPose& pose, const Weld& weld, ChangeRecord* change = nullptr);
+  /// Edges that were welded, as pairs of surface points, in the order of the welds. A later tear
+  /// may have opened an edge again, or put points on it. Valid until the next change; empty without
+  /// welds.
+  [[nodiscard]] std::span<const std::array<std::uint32_t, 2>> scars() const;
 
   /// Lists and measures the connected component that now contains the triangle that names a piece,
   /// in the pose of the most recent operation or call of a stroke.

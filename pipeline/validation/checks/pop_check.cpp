@@ -7,9 +7,11 @@
 #include <cstdio>
 #include <limits>
 #include <span>
+#include <type_traits>
 
 #include "core/internal/or_throw.h"
 #include "core/internal/ordered.h"
+#include "core/operation/internal/names.h"
 #include "pipeline/validation/match/bind_surface.h"
 #include "pipeline/validation/match/closest_on_triangle.h"
 #include "pipeline/validation/match/position_table.h"
@@ -232,9 +234,8 @@ class PopMeter {
 };
 
 const char* name_of(const Operation& operation) {
-  constexpr std::array kNames = {"tear", "cut", "drill", "weights", "undo", "redo", "detach"};
-  static_assert(std::variant_size_v<Operation> == kNames.size());
-  return kNames[operation.index()];
+  return std::visit([](const auto& of) { return kOpName<std::remove_cvref_t<decltype(of)>>; },
+                    operation);
 }
 
 /// An operation and the vertex that it moves farthest.

@@ -77,6 +77,32 @@ Operation random_operation(const TornModel& model, Random& random) {
   }
 }
 
+Operation random_lossless_operation(const TornModel& model, Random& random, bool has_fillings) {
+  if (random.index(3) > 0) {
+    TearOperation tear = random_tear(model, random, false);
+    if (has_fillings && random.index(2) == 0)
+      tear.options.wall_depth = random.uniform(0.002, 0.05) *
+                                posed_diagonal(model.source(), std::get<ModelPose>(tear.pose));
+    return tear;
+  }
+  CutOperation cut = random_cut(model, random);
+  cut.cut.caps = has_fillings && random.index(2) == 0;
+  return cut;
+}
+
+WeldOperation random_weld(const TornModel& model, Random& random) {
+  const Character& source = model.source();
+  WeldOperation operation;
+  const ModelPose pose = random_pose(source, random);
+  operation.pose = pose;
+  if (random.index(2) == 0) return operation;
+  const auto positions = posed_positions(source, 0, pose);
+  operation.weld.places = {positions[random.index(static_cast<std::uint32_t>(positions.size()))]};
+  if (random.index(3) > 0)
+    operation.weld.reach = random.uniform(0.01, 0.3) * posed_diagonal(source, pose);
+  return operation;
+}
+
 Stroke turning_stroke(Random& random) {
   Stroke stroke;
   double x = 0.15, y = 0.5, heading = random.uniform(-0.3, 0.3);
@@ -98,6 +124,8 @@ Result<TearReport> play(TornModel& model, const Operation& operation, ChangeReco
     return model.cut(std::get<ModelPose>(cut->pose), cut->cut, change);
   if (const auto* drill = std::get_if<DrillOperation>(&operation))
     return model.drill(std::get<ModelPose>(drill->pose), drill->bore, change);
+  if (const auto* weld = std::get_if<WeldOperation>(&operation))
+    return model.weld(std::get<ModelPose>(weld->pose), weld->weld, change);
   std::abort();
 }
 

@@ -16,11 +16,18 @@ Operation random_operation(const TornModel& model, Random& random);
 /// A tear along a random stroke in a random pose; with or without width.
 TearOperation random_tear(const TornModel& model, Random& random, bool has_width);
 
+/// Tears and cuts that remove nothing, so that welds can close them.
+/// @param has_fillings  whether they may have walls and caps.
+Operation random_lossless_operation(const TornModel& model, Random& random, bool has_fillings);
+
+/// A weld of all wounds, or of the one near a place of the surface, to its ends or a part of it.
+WeldOperation random_weld(const TornModel& model, Random& random);
+
 /// Blades that go down through the sheet of make_sheet(), along a path that turns at random and
 /// stays on the sheet.
 Stroke turning_stroke(Random& random);
 
-/// Performs an operation of random_operation() or random_tear().
+/// Performs an operation of the functions above.
 Result<TearReport> play(TornModel& model, const Operation& operation,
                         ChangeRecord* change = nullptr);
 

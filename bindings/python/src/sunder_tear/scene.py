@@ -288,6 +288,15 @@ class Instance:
                       has_wall=int(wall), **_with_policy(options))
         return self._submit('drill', ctypes.byref(raw), int(in_background))
 
+    def weld(self, places=None, reach: float = 0.0, *, in_background: bool = False) -> Command:
+        """Closes wounds whose lips lie on one another: those of tears without width and of cuts. places: only the wound nearest
+        to each of them, (n, 3), and no farther along it than `reach`; 0: to its ends."""
+        raw = abi.new('weld', reach=reach)
+        if places is not None:
+            kept = doubles(places, -1, 3)
+            raw.places, raw.place_count = pointer_to(kept), len(kept)
+        return self._submit('weld', ctypes.byref(raw), int(in_background))
+
     def detach(self, point, *, bone: Optional[str] = None, motion: str = 'frozen', density: float = 1000.0, **options) -> Command:
         """Takes off the connected piece nearest to a place; `result.piece` has its mass, inertia and meshes. bone: only triangles
         that this bone moves most. density: kg/m^3."""
