@@ -1,5 +1,5 @@
-// What it costs to keep the wounds in a texture in step with tears, and how far a mask is from
-// brute force.
+// What it costs to keep the wounds in a texture in step with tears, how far a mask is from brute
+// force, and what it costs to close wounds again.
 
 #include <sunder/skinning/pose.h>
 #include <sunder/tear/wound_mask.h>
@@ -12,6 +12,7 @@
 
 #include "bench/harness/json_object.h"
 #include "bench/harness/measure.h"
+#include "bench/tear/weld_figures.h"
 #include "support/machine/random.h"
 #include "support/models/atlas_tube.h"
 #include "support/models/make_model.h"
@@ -96,6 +97,7 @@ double largest_error() {
 void run(bool is_summary) {
   const Figures figures = measure_updates();
   const double error = largest_error();
+  const WeldFigures welds = measure_welds();
   if (is_summary) {
     JsonObject json;
     json.add("mask_ms_1024", median(figures.update_ms));
@@ -103,6 +105,11 @@ void run(bool is_summary) {
     json.add("mask_create_ms_1024", figures.create_ms);
     json.add("mask_rectangle_share", median(figures.texels) / (double{kSize} * kSize));
     json.add("mask_error_texels", error);
+    json.add("weld_ms", welds.weld_ms);
+    json.add("weld_vs_tear", welds.vs_tear);
+    json.add("weld_position_error", welds.position_error);
+    json.add("weld_position_error_barycentric", welds.position_error_barycentric);
+    json.add("weld_open_share", welds.open_share);
     return json.end();
   }
   std::printf(
@@ -116,6 +123,10 @@ void run(bool is_summary) {
   std::printf("  rectangle       %8.2f %% of the texture\n",
               100 * median(figures.texels) / (double{kSize} * kSize));
   std::printf("  largest difference from brute force, at 128 x 128: %.3f texels\n", error);
+  std::printf("welds of such strokes: %.3f ms, %.2f x their tears; %.0f %% stay open\n",
+              welds.weld_ms, welds.vs_tear, 100 * welds.open_share);
+  std::printf("  from the untorn surface %.2g diagonals, with barycentric weights %.2g\n",
+              welds.position_error, welds.position_error_barycentric);
 }
 
 }  // namespace

@@ -121,12 +121,6 @@ Result<TearReport> TornModel::weld(const ModelPose& pose, const Weld& weld, Chan
   return state.perform<WeldOperation>({pose, state.weights, change}, write_entry, work);
 }
 
-std::span<const std::array<std::uint32_t, 2>> TornModel::scars() const {
-  const State* const torn = torn_state();
-  if (torn == nullptr) return {};
-  return torn->editor.connectivity.scars();
-}
-
 Result<PieceDescription> TornModel::describe_piece(const TornPiece& piece) const {
   if (Status status = unpack(); !status) return status;
   const auto& meshes = character().meshes;

@@ -111,17 +111,23 @@ sunder_status sunder_save_instance(sunder_scene scene, sunder_instance instance,
     if (glb == nullptr) return null_pointer("glb");
     const AssetParts* const parts = parts_of(found);
     const bool has_source = parts != nullptr && parts->character->loaded.source != nullptr;
-    const sunder::Character& torn = found.instance->character();
     sunder::SaveOptions save = save_options_of(options);
     const sunder::TornModel* const model = found.instance->model();
+    const sunder::Character* torn = &found.instance->character();
+    sunder::Character scarred;
+    if (model != nullptr && !model->scars().empty()) {
+      scarred = *torn;
+      sunder::mark_scars(*model, scarred);
+      torn = &scarred;
+    }
     if (has_source && model != nullptr &&
         &model->source() == parts->character->loaded.character.get()) {
       auto origins = sunder::vertex_origins(*model);
       if (!origins) return report(origins.error());
       save.origins = std::move(*origins);
     }
-    auto bytes = has_source ? sunder::save_glb(torn, parts->character->loaded, save)
-                            : sunder::save_glb(torn, save);
+    auto bytes = has_source ? sunder::save_glb(*torn, parts->character->loaded, save)
+                            : sunder::save_glb(*torn, save);
     if (!bytes) return report(bytes.error());
     return add_bytes(std::move(*bytes), glb);
   });

@@ -29,7 +29,9 @@ using Rooms = std::map<std::string, std::set<std::string>>;
 const std::map<std::string, Rooms> kRooms = {
     {"tear",
      {{".",
-       {"model", "detached", "operation", "pieces", "posed", "surface", "weights", "geometry"}},
+       {"model", "detached", "weld", "operation", "pieces", "posed", "surface", "weights",
+        "geometry"}},
+      {"weld", {"operation", "sheet", "posed", "surface", "geometry"}},
       {"model", {"detached", "operation", "pieces", "posed", "surface", "weights", "geometry"}},
       {"contact", {"model", "operation", "posed", "surface", "geometry"}},
       {"wound_mask", {"model", "surface", "geometry"}},

@@ -181,6 +181,29 @@ TEST(Weld, ClosesTheWoundThatIsNear) {
   EXPECT_EQ(model.undo_count(), 4u);  // a weld that finds nothing is no operation
 }
 
+TEST(Weld, MarksScars) {
+  auto model = checked(TornModel::create(std::make_shared<const Character>(test::make_sheet(10))));
+  const ModelPose pose = checked(bind_pose(model.source()));
+  (void)checked(model.tear(pose, Stroke{test::down_at(0.2, 0.33), test::down_at(0.8, 0.33)}));
+  Character marked = model.character();
+  mark_scars(model, marked);
+  EXPECT_EQ(marked, model.character());
+  (void)checked(model.weld(pose, {}));
+  marked = model.character();
+  mark_scars(model, marked);
+  const CustomAttribute& scar = marked.meshes[0].custom_attributes.back();
+  EXPECT_EQ(scar.name, kScarAttribute);
+  const Mesh& mesh = marked.meshes[0];
+  for (const Triangle& triangle : mesh.triangles)
+    for (const std::uint32_t vertex : triangle) {
+      const Vec3f& at = mesh.positions[vertex];
+      const bool is_on_wound =
+          std::abs(at.y() - 0.33f) < 1e-6f && at.x() > 0.199f && at.x() < 0.801f;
+      EXPECT_EQ(scar.values[vertex], is_on_wound ? 1.0f : 0.0f);
+    }
+  EXPECT_EQ(validate_character(marked).code(), StatusCode::ok);
+}
+
 TEST(Weld, LeavesGapsAndBoresOpen) {
   auto model = checked(TornModel::create(std::make_shared<const Character>(test::make_sheet(10))));
   const ModelPose pose = checked(bind_pose(model.source()));

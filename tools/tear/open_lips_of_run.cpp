@@ -59,11 +59,12 @@ Result<WrittenModel> written_model(const TearRun& run) {
   const bool is_open = run.opening && run.opening->widest_gap > 0;
   const bool gets_flesh =
       run.request.flesh.use == FleshOption::Use::flesh && has_fillings(run.model);
-  if (!is_open && !gets_flesh)
+  if (!is_open && !gets_flesh && run.model.scars().empty())
     return WrittenModel{std::shared_ptr<const Character>(std::shared_ptr<void>(), &closed), {}};
   const Result<FleshMaterials> flesh = FleshMaterials::create(run);
   if (!flesh) return flesh.error();
   Character walled = closed;
+  mark_scars(run.model, walled);
   flesh->give_to_fillings(walled);
   if (is_open) {
     Opening opening = *run.opening;

@@ -239,6 +239,14 @@ class SUNDER_API TornModel {
   StatePointer state_;
 };
 
+/// Name of the custom attribute of mark_scars().
+inline constexpr const char* kScarAttribute = "_SCAR";
+
+/// Marks the points of edges that were welded, for files and shaders: gives meshes that have some
+/// the attribute `_SCAR`, 1 at their vertices and 0 elsewhere. O(vertices + triangles)
+/// @param character  with the vertices and triangles of model.character(), such as a copy of it.
+SUNDER_API void mark_scars(const TornModel& model, Character& character);
+
 /// Applies one operation to a model; poses are looked up in the model's skeleton and clips.
 ///
 /// @param changes  optional; one record per step is appended, in order. Undo and redo of several

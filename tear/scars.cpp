@@ -1,0 +1,40 @@
+#include <sunder/tear/torn_model.h>
+
+#include <algorithm>
+
+#include "tear/model/model_state.h"
+
+namespace sunder {
+
+std::span<const std::array<std::uint32_t, 2>> TornModel::scars() const {
+  const State* const torn = torn_state();
+  if (torn == nullptr) return {};
+  return torn->editor.connectivity.scars();
+}
+
+void mark_scars(const TornModel& model, Character& character) {
+  if (model.scars().empty()) return;
+  std::vector<bool> is_scar(model.point_count(), false);
+  for (const auto& scar : model.scars())
+    for (const std::uint32_t point : scar) is_scar[point] = true;
+  for (std::uint32_t m = 0; m < character.meshes.size(); ++m) {
+    Mesh& mesh = character.meshes[m];
+    std::vector<float> marks(mesh.vertex_count(), 0.0f);
+    bool has_any = false;
+    for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
+      if (is_retired(mesh.triangles[t])) continue;
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        const std::uint32_t point = model.point_at(m, t, k);
+        if (point == kNone || !is_scar[point]) continue;
+        marks[mesh.triangles[t][k]] = 1.0f;
+        has_any = true;
+      }
+    }
+    if (!has_any) continue;
+    std::erase_if(mesh.custom_attributes,
+                  [](const CustomAttribute& of) { return of.name == kScarAttribute; });
+    mesh.custom_attributes.push_back({kScarAttribute, 1, true, std::move(marks)});
+  }
+}
+
+}  // namespace sunder
