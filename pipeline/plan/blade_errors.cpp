@@ -47,6 +47,7 @@ PlainErrors plain_errors(const BladePlace& blade, const TargetSample& sample) {
   plain.place = errors.segment<3>(0).norm();
   plain.depth = std::abs(errors[3]);
   plain.angle = std::acos(std::clamp(handle.dot(sample.handle), -1.0, 1.0));
+  plain.tip_depth = errors[3] + sample.depth;
   plain.is_base_outside = (blade.base - sample.place).dot(sample.normal) > 0;
   return plain;
 }

@@ -29,6 +29,7 @@ using ErrorRates = Eigen::Matrix<double, 7, Eigen::Dynamic>;
 /// The same in metres and radians.
 struct PlainErrors {
   double place = 0, depth = 0, angle = 0;
+  double tip_depth = 0;  ///< Metres below the surface.
   bool is_base_outside = false;
 };
 [[nodiscard]] PlainErrors plain_errors(const BladePlace& blade, const TargetSample& sample);

@@ -17,7 +17,10 @@ bool is_reached(BladeChain& chain, const TargetSample& sample, const Values& val
   BladePlace place;
   chain.place({values.data(), chain.size()}, place, false);
   const PlainErrors errors = plain_errors(place, sample);
-  const bool is_deep_enough = !sample.is_full || errors.depth <= kDepthTolerance * sample.depth;
+  // Where the blade goes down and rises, it may be as deep as elsewhere.
+  const double allowed = kDepthTolerance * sample.full_depth;
+  const bool is_deep_enough =
+      errors.tip_depth >= sample.depth - allowed && errors.tip_depth <= sample.full_depth + allowed;
   return errors.place <= tolerance && is_deep_enough && errors.is_base_outside;
 }
 

@@ -13,8 +13,8 @@ namespace {
 
 /// The curve is divided into about so many steps.
 constexpr double kSteps = 240;
-/// A step along the surface that is longer than so many steps along the chord is a jump.
-constexpr double kLongestStep = 6;
+/// Chords that are still longer after so many more halvings than on a plane cross a gap.
+constexpr int kMoreHalvings = 4;
 constexpr std::ptrdiff_t kNormalWindow = 4;   ///< Anchors to each side whose normals are averaged.
 constexpr std::ptrdiff_t kTangentWindow = 2;  ///< Anchors to each side that give the direction.
 /// Share of the length in which the blade goes down, and in which it rises again. It moves along
@@ -106,28 +106,42 @@ class Layer {
                            i - 1, i % posed_.size());
   }
 
+  /// Adds what lies between neighbours i - 1 and i, and i itself.
   Status go_to(std::size_t i) {
-    const Vec3d from = at(i - 1), to = at(i);
-    const double chord = (to - from).norm();
-    const auto steps = static_cast<std::size_t>(std::ceil(chord / step_));
-    const double step = chord / static_cast<double>(std::max<std::size_t>(steps, 1));
-    for (std::size_t k = 1; k < steps; ++k) {
-      const double share = static_cast<double>(k) / static_cast<double>(steps);
-      const Vec3d wanted = from + share * (to - from);
-      const auto found = query_.find_nearest(wanted, chord);
-      if (!found) return found.error();
-      if (!found->has_value()) return jump(i);
-      const SurfaceContact& contact = **found;
-      if ((contact.place - laid.back().place).norm() > kLongestStep * step) return jump(i);
-      const auto between = [&](const std::vector<double>& profile) {
-        return (1 - share) * profile_at(profile, i - 1) + share * profile_at(profile, i);
-      };
-      laid.push_back(
-          {contact.anchor, contact.place, between(target_.depth), between(target_.angle)});
-    }
-    if (steps > 0 && (to - laid.back().place).norm() > kLongestStep * step) return jump(i);
-    if (steps > 0) add(i);
+    const double chord = (at(i) - at(i - 1)).norm();
+    if (chord == 0) return {};
+    const int halvings = static_cast<int>(std::ceil(std::log2(std::max(chord / step_, 1.0))));
+    if (const Status status = halve(i, {at(i - 1), 0}, {at(i), 1}, halvings + kMoreHalvings);
+        !status)
+      return status;
+    add(i);
     return {};
+  }
+
+  /// A place between two neighbours, and its share of the way.
+  struct Between {
+    Vec3d place;
+    double share;
+  };
+
+  /// Adds places between `from` and `to`, which are on the surface: the one nearest to the middle
+  /// of their chord, and then those between, until chords are short.
+  Status halve(std::size_t i, const Between& from, const Between& to, int halvings) {
+    const double chord = (to.place - from.place).norm();
+    if (chord <= step_) return {};
+    if (halvings == 0) return jump(i);
+    const auto found = query_.find_nearest(Vec3d(0.5 * (from.place + to.place)), chord);
+    if (!found) return found.error();
+    if (!found->has_value()) return jump(i);
+    const SurfaceContact& contact = **found;
+    const Between middle{contact.place, 0.5 * (from.share + to.share)};
+    if (const Status status = halve(i, from, middle, halvings - 1); !status) return status;
+    const auto between = [&](const std::vector<double>& profile) {
+      return (1 - middle.share) * profile_at(profile, i - 1) +
+             middle.share * profile_at(profile, i);
+    };
+    laid.push_back({contact.anchor, contact.place, between(target_.depth), between(target_.angle)});
+    return halve(i, middle, to, halvings - 1);
   }
 
   const WoundTarget& target_;
@@ -202,7 +216,8 @@ Status TargetPath::sample(const ModelPose& pose, double standoff, TargetSample& 
   sample.handle = (std::sin(angle) * sample.normal + std::cos(angle) * along).normalized();
   const double to_end = std::min(sample.share, 1 - sample.share);
   const double up = std::max(1 - to_end / kRamp, 0.0);
-  const double depth = mixed(depth_) * (1 - (1 + kAbove) * up * up);
+  sample.full_depth = mixed(depth_);
+  const double depth = sample.full_depth * (1 - (1 + kAbove) * up * up);
   sample.depth = (1 - sample.lift) * depth - sample.lift * standoff;
   sample.is_full = sample.lift == 0 && up == 0;
   return {};

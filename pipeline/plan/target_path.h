@@ -22,7 +22,8 @@ struct TargetSample {
   Vec3d normal = Vec3d::Zero();  ///< Of the surface there, unit length.
   Vec3d handle = Vec3d::Zero();  ///< From tip to base, unit length.
   double depth = 0;              ///< Of the tip below `place` along -normal; below 0: above it.
-  bool is_full = false;  ///< Whether that is the wanted depth: not near the ends of the curve.
+  double full_depth = 0;  ///< The wanted depth there; less than that near the ends of the curve.
+  bool is_full = false;   ///< Whether `depth` is that.
 };
 
 /// A WoundTarget as a dense run of places in triangles.
