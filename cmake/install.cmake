@@ -41,11 +41,11 @@ endif()
 if(SUNDER_HIGHWAY AND NOT BUILD_SHARED_LIBS)
   string(APPEND SUNDER_STATIC_DEPENDENCIES "find_dependency(hwy 1.0.3)\n")
 endif()
-if(SUNDER_CERES)  # only for programs that ask for this component
-  string(APPEND SUNDER_STATIC_DEPENDENCIES "set(Sunder_coupled_refit_FOUND TRUE)\n")
+if(SUNDER_CERES)  # only for programs that ask for one of these components
+  string(APPEND SUNDER_STATIC_DEPENDENCIES "set(Sunder_coupled_refit_FOUND TRUE)\nset(Sunder_plan_FOUND TRUE)\n")
   if(NOT BUILD_SHARED_LIBS)
     string(APPEND SUNDER_STATIC_DEPENDENCIES
-      "if(coupled_refit IN_LIST Sunder_FIND_COMPONENTS)\n  find_dependency(Ceres 2.1)\nendif()\n")
+      "if(coupled_refit IN_LIST Sunder_FIND_COMPONENTS OR plan IN_LIST Sunder_FIND_COMPONENTS)\n  find_dependency(Ceres 2.1)\nendif()\n")
   endif()
 endif()
 if(SUNDER_BULLET AND NOT BUILD_SHARED_LIBS)

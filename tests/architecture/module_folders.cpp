@@ -13,6 +13,7 @@ const std::map<std::string, std::string> kFolders = {
     {"certificate", "weights/certificate"},
     {"coupled_refit", "weights/coupled_refit"},
     {"operation", "core/operation"},
+    {"plan", "pipeline/plan"},
     {"ragdoll", "pipeline/ragdoll"},
     {"robot", "io/robot"},
     {"validation", "pipeline/validation"},

@@ -2,6 +2,8 @@
 
 #include <sunder/io/trajectory_file.h>
 
+#include <cmath>
+
 #include <fstream>
 #include <string>
 
@@ -42,6 +44,22 @@ TEST(TrajectoryFile, csv_and_json_say_the_same) {
     EXPECT_THAT(read.times, ElementsAre(0, 0.25));
     EXPECT_THAT(read.values, ElementsAre(0.5, -0.001, 1, 2));
   }
+}
+
+TEST(TrajectoryFile, written_csv_is_read_back_bit_for_bit) {
+  RobotTrajectory trajectory{{"shoulder", "elbow.x"}, {-0.1, 1.0 / 3, 1e6}, {}};
+  for (int i = 0; i < 6; ++i) trajectory.values.push_back(std::sin(i) * std::pow(10, 40 * i - 99));
+  const auto text = trajectory_csv(trajectory);
+  ASSERT_TRUE(text) << text.error().text();
+  const auto read = parse_trajectory_csv(*text);
+  ASSERT_TRUE(read) << read.error().text();
+  EXPECT_EQ(read->names, trajectory.names);
+  EXPECT_EQ(read->times, trajectory.times);
+  EXPECT_EQ(read->values, trajectory.values);
+  trajectory.values.pop_back();
+  EXPECT_EQ(trajectory_csv(trajectory).error().code(), StatusCode::size_mismatch);
+  trajectory = {{"a,b"}, {0}, {0}};
+  EXPECT_EQ(trajectory_csv(trajectory).error().code(), StatusCode::invalid_argument);
 }
 
 TEST(TrajectoryFile, faults_of_csv_have_line_and_column) {

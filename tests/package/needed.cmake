@@ -1,7 +1,7 @@
 # check_needed(<prefix> <list of third parties>)
 #
 # Reads NEEDED of every installed program and library, and of all libraries that those load. Only the files of coupled refits
-# load Ceres and SuiteSparse, parts of which are under the GPL; every library that an installed file itself needs is in the
+# and plans load Ceres and SuiteSparse, parts of which are under the GPL; every library that an installed file itself needs is in the
 # list of third parties.
 function(check_needed prefix third_parties)
   file(READ ${third_parties} listed)
@@ -19,8 +19,8 @@ function(check_needed prefix third_parties)
     if(closure MATCHES "not found")
       message(FATAL_ERROR "${name}: a library is not found\n${closure}")
     endif()
-    if(NOT name MATCHES "coupled[-_]refit" AND closure MATCHES "(ceres|cholmod|spqr|cxsparse|suitesparse|umfpack)")
-      message(FATAL_ERROR "${name} loads ${CMAKE_MATCH_1}; only coupled refits may\n${closure}")
+    if(NOT name MATCHES "coupled[-_]refit|^libsunder_plan" AND closure MATCHES "(ceres|cholmod|spqr|cxsparse|suitesparse|umfpack)")
+      message(FATAL_ERROR "${name} loads ${CMAKE_MATCH_1}; only coupled refits and plans may\n${closure}")
     endif()
   endforeach()
   if(checked EQUAL 0)

@@ -58,6 +58,7 @@ std::vector<Verb> add_verbs(CLI::App& app, Requests& requests) {
       {add_info(app, requests.info), [&] { return run_info(requests.info); }},
       {add_picture(app, requests.picture), [&] { return run_picture(requests.picture); }},
       {add_tear(app, requests.tear), [&] { return run_tear(requests.tear); }},
+      {add_plan(app, requests.plan), [&] { return run_plan(requests.plan); }},
       {add_transfer(app, requests.transfer), [&] { return run_transfer(requests.transfer); }},
       {add_bind(app, requests.bind), [&] { return run_bind(requests.bind); }},
       {add_validate(app, requests.validate), [&] { return run_validate(requests.validate); }},

@@ -14,6 +14,7 @@ struct Requests {
   BindRequest bind;
   InfoRequest info;
   PictureRequest picture;
+  PlanRequest plan;
   TearRequest tear;
   DemoRequest demo;
   TransferRequest transfer;

@@ -9,6 +9,7 @@ namespace sunder::tools {
 // Each function adds a verb with its options to the command; parsing fills in the request.
 CLI::App* add_bind(CLI::App& app, BindRequest& request);
 CLI::App* add_info(CLI::App& app, InfoRequest& request);
+CLI::App* add_plan(CLI::App& app, PlanRequest& request);
 CLI::App* add_picture(CLI::App& app, PictureRequest& request);
 CLI::App* add_studio(CLI::App& app, StudioRequest& request);
 CLI::App* add_tear(CLI::App& app, TearRequest& request);
@@ -22,6 +23,9 @@ void add_aimed_operations(CLI::App& verb);
 /// Reads the aimed operations that were given, in order. @throws CLI::ValidationError
 void read_aimed_operations(const CLI::App& verb, TearRequest& request);
 
+/// `--robot`, its blade and its place. @return `--robot`.
+CLI::Option* add_placed_robot(CLI::App& verb, RobotTearRequest& robot, const char* description);
+CLI::Option* add_clip_speed(CLI::App& verb, RobotTearRequest& robot);
 /// `--robot`, its motion, its blade and its place.
 /// @param description  of `--robot`.
 void add_robot(CLI::App& verb, RobotTearRequest& robot, const char* description);

@@ -58,14 +58,9 @@ void add_blade(CLI::App& verb, RobotTearRequest& robot, CLI::Option* file) {
 
 }  // namespace
 
-void add_robot(CLI::App& verb, RobotTearRequest& robot, const char* description) {
+CLI::Option* add_placed_robot(CLI::App& verb, RobotTearRequest& robot, const char* description) {
   CLI::Option* const file =
       verb.add_option("--robot", robot.robot, description)->type_name("FILE")->group(kGroup);
-  verb.add_option("--trajectory", robot.trajectory,
-                  "The robot's motion: CSV or JSON of times and joint values")
-      ->type_name("FILE")
-      ->group(kGroup)
-      ->needs(file);
   add_blade(verb, robot, file);
   verb.add_option_function<std::string>(
           "--robot-place",
@@ -83,13 +78,26 @@ void add_robot(CLI::App& verb, RobotTearRequest& robot, const char* description)
       ->type_name("NUMBERS")
       ->group(kGroup)
       ->needs(file);
-  takes(verb.add_option("--clip-speed", robot.clip_speed,
-                        "Seconds by which the clip of --pose runs on per second of the motion"),
-        robot::kClipSpeed)
+  return file;
+}
+
+CLI::Option* add_clip_speed(CLI::App& verb, RobotTearRequest& robot) {
+  return takes(verb.add_option(
+                   "--clip-speed", robot.clip_speed,
+                   "Seconds by which the clip of --pose runs on per second of the motion"),
+               robot::kClipSpeed)
       ->type_name("NUMBER")
+      ->capture_default_str();
+}
+
+void add_robot(CLI::App& verb, RobotTearRequest& robot, const char* description) {
+  CLI::Option* const file = add_placed_robot(verb, robot, description);
+  verb.add_option("--trajectory", robot.trajectory,
+                  "The robot's motion: CSV or JSON of times and joint values")
+      ->type_name("FILE")
       ->group(kGroup)
-      ->capture_default_str()
       ->needs(file);
+  add_clip_speed(verb, robot)->group(kGroup)->needs(file);
   verb.add_flag("--keep-limits", robot.clamps_to_limits,
                 "Keep joints within their limits where the motion leaves them")
       ->group(kGroup)

@@ -3,6 +3,7 @@
 #include <sunder/robot/trajectory.h>
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 namespace sunder {
@@ -20,6 +21,11 @@ namespace sunder {
 /// @return as above; the text names the place as a JSON pointer, or line and column of a syntax
 ///         error.
 [[nodiscard]] SUNDER_API Result<RobotTrajectory> parse_trajectory_json(std::string_view text);
+
+/// A trajectory as CSV, which parse_trajectory_csv() reads back bit for bit.
+/// @return size_mismatch if there is not one number per time and name; invalid_argument for a name
+///         that CSV cannot have; limit_exceeded, out of memory.
+[[nodiscard]] SUNDER_API Result<std::string> trajectory_csv(const RobotTrajectory& trajectory);
 
 /// Reads a file, by its extension: .csv or .json.
 /// @return as above; file_not_found, file_unreadable, unsupported_format.

@@ -1,0 +1,226 @@
+// Plans of 100 random curves on ten rigs that move, by three arms, beside inverse kinematics for
+// each frame and a search that shares no code. bench_plan [--cases N] [--summary]. Prints the
+// figures of docs/plan.md.
+
+#include <sunder/plan/plan.h>
+#include <sunder/skinning/pose.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/harness/cpu_seconds.h"
+#include "bench/harness/json_object.h"
+#include "bench/plan/frame_ik.h"
+#include "bench/plan/pattern_search.h"
+#include "bench/plan/plan_cases.h"
+#include "pipeline/plan/measure_wound.h"
+#include "pipeline/plan/target_path.h"
+
+namespace {
+
+using namespace sunder;
+using namespace sunder::bench;
+
+constexpr double kFrames = 30;  ///< Samples per second of the inverse kinematics per frame.
+
+struct Figures {
+  int cases = 0, reachable = 0, reached = 0, planned = 0, hausdorff_ok = 0, repeated = 0, same = 0,
+      over_limits = 0, unreachable = 0, causes = 0, causes_true = 0;
+  std::vector<double> seconds, hausdorff, frame_hausdorff, place, depth, angle;
+};
+
+double median(std::vector<double> of) {
+  if (of.empty()) return std::numeric_limits<double>::quiet_NaN();
+  std::sort(of.begin(), of.end());
+  return of[of.size() / 2];
+}
+
+/// Whether a trajectory leaves limits or speeds, between its times too.
+bool leaves_limits(const PlanTool& tool, const RobotTrajectory& trajectory) {
+  const auto motion = RobotMotion::create(tool.robot, trajectory);
+  if (!motion || !motion->excesses().empty()) return true;
+  std::vector<double> values(tool.robot.values.size()), before;
+  constexpr int kTimes = 4000;
+  const double step = motion->last_time() / kTimes;
+  for (int i = 0; i <= kTimes; ++i) {
+    if (!motion->values_at(i * step, values)) return true;
+    if (!check_limits(tool.robot, values)) return true;
+    for (std::size_t v = 0; v < values.size() && i > 0; ++v) {
+      const double limit = tool.robot.joints[tool.robot.values[v].joint].velocity;
+      if (limit > 0 && std::abs(values[v] - before[v]) > step * limit * (1 + 1e-6)) return true;
+    }
+    before = values;
+  }
+  return false;
+}
+
+/// The largest distance of lips and curve after inverse kinematics for each frame.
+double frame_hausdorff(const PlanCase& of, const plan::TargetPath& path, const PlanReport& report) {
+  const double end = of.timing.approach + of.timing.cut + of.timing.retreat;
+  const auto samples = plan::sample_target(*of.rig.character, path, of.timing,
+                                           static_cast<std::uint32_t>(std::ceil(end * kFrames)));
+  const RobotTrajectory trajectory = frame_ik(of.tool, *samples, of.middle_values);
+  const auto motion = RobotMotion::create(of.tool.robot, trajectory);
+  SweepOptions options;
+  options.seconds = 1.0 / 60;
+  const auto sweep = sweep_blade(*motion, of.tool.blade, of.tool.world_from_root, options);
+  if (!sweep) return std::numeric_limits<double>::infinity();
+  const auto tear = tear_of_sweep(*sweep, of.timing.pose, of.timing.clip_speed);
+  const auto pose = plan::pose_at(*of.rig.character, of.timing, report.cut_begins);
+  const auto measured = plan::measure_wound(of.rig.character, path, *tear, *pose);
+  return measured ? measured->hausdorff : std::numeric_limits<double>::infinity();
+}
+
+/// Whether the obstacles that a plan names are what stops it: without the named limits a search
+/// that shares no code, or a further plan, gets farther; and what is out of reach stays so for
+/// random searches without limits.
+bool are_true(const PlanCase& of, const PlanOptions& options, const PlanReport& report,
+              const std::vector<plan::TargetSample>& samples) {
+  const PlanObstacle::Kind kind = report.obstacles.front().kind;
+  PlanTool freed = of.tool;
+  const bool is_reach = kind == PlanObstacle::Kind::reach;
+  for (RobotValue& value : freed.robot.values) {
+    const bool is_named = is_reach || std::any_of(report.obstacles.begin(), report.obstacles.end(),
+                                                  [&](const PlanObstacle& named) {
+                                                    return named.value == value.name;
+                                                  });
+    if (!is_named) continue;
+    RobotJoint& joint = freed.robot.joints[value.joint];
+    if (kind == PlanObstacle::Kind::joint_speed) {
+      joint.velocity *= 10;
+      continue;
+    }
+    value.lower = joint.lower = -1e3;
+    value.upper = joint.upper = 1e3;
+  }
+  if (kind == PlanObstacle::Kind::joint_speed) {
+    const auto again = plan_motion(of.rig.character, of.target, of.timing, freed, options);
+    return again && (again->report.is_reachable ||
+                     again->report.obstacles.front().kind != PlanObstacle::Kind::joint_speed ||
+                     again->report.obstacles.front().value != report.obstacles.front().value);
+  }
+  const double at = report.obstacles.front().at;
+  const auto nearest =
+      std::min_element(samples.begin(), samples.end(),
+                       [&](const plan::TargetSample& a, const plan::TargetSample& b) {
+                         const auto away = [&](const plan::TargetSample& s) {
+                           return std::abs(s.share - at) + (s.depth > 0 ? 0 : 10);
+                         };
+                         return away(a) < away(b);
+                       });
+  std::vector<double> lower, upper;
+  for (const RobotValue& value : freed.robot.values) {
+    lower.push_back(value.lower);
+    upper.push_back(value.upper);
+  }
+  const PatternSearch search(freed, options.tolerance);
+  return search.reach_from_anywhere(*nearest, lower, upper, 60) != is_reach;
+}
+
+void run_case(const PlanCase& of, std::uint64_t seed, bool is_verbose, Figures& figures) {
+  const auto pose = make_pose(*of.rig.character, of.timing.pose);
+  const auto path = plan::TargetPath::create(of.rig.character, of.target, *pose);
+  PlanOptions options;
+  options.tolerance = std::max(0.001 * of.rig.size, 0.01 * path->length());
+  options.spacing = 0.002 * of.rig.size;
+  std::optional<Result<PlannedMotion>> result;
+  const double seconds = cpu_seconds_of(
+      [&] { result = plan_motion(of.rig.character, of.target, of.timing, of.tool, options); });
+  ++figures.cases;
+  figures.seconds.push_back(seconds);
+  if (!*result) {
+    std::printf("case %llu: %s\n", static_cast<unsigned long long>(seed),
+                std::string((*result).error().text()).c_str());
+    return;
+  }
+  const PlannedMotion& planned = **result;
+  const PlanReport& report = planned.report;
+  const auto samples = plan::sample_target(*of.rig.character, *path, of.timing, 200);
+  const bool is_reachable =
+      PatternSearch(of.tool, options.tolerance).follow(*samples, of.middle_values);
+  const bool is_ok = report.is_reachable && report.hausdorff <= options.tolerance;
+  figures.reachable += is_reachable ? 1 : 0;
+  figures.reached += is_reachable && is_ok ? 1 : 0;
+  double frame = std::numeric_limits<double>::quiet_NaN();
+  bool is_true = false;
+  if (report.is_reachable) {
+    ++figures.planned;
+    figures.hausdorff_ok += is_ok ? 1 : 0;
+    figures.over_limits += leaves_limits(of.tool, planned.trajectory) ? 1 : 0;
+    frame = frame_hausdorff(of, *path, report);
+    figures.hausdorff.push_back(report.hausdorff / options.tolerance);
+    figures.frame_hausdorff.push_back(frame / options.tolerance);
+    figures.place.push_back(report.most_place_error / options.tolerance);
+    figures.depth.push_back(report.mean_depth_error / of.target.depth[0]);
+    figures.angle.push_back(report.mean_angle_error);
+  } else {
+    ++figures.causes;
+    is_true = are_true(of, options, report, *samples);
+    figures.causes_true += is_true ? 1 : 0;
+  }
+  if (seed % 5 == 0) {
+    ++figures.repeated;
+    const auto again = plan_motion(of.rig.character, of.target, of.timing, of.tool, options);
+    figures.same += again && again->trajectory.values == planned.trajectory.values ? 1 : 0;
+  }
+  if (!is_verbose) return;
+  std::printf(
+      "%3llu %-20s %-8s oracle %d plan %d part %.2f-%.2f  lips %.2f frame %.2f of tol  %.2f s",
+      static_cast<unsigned long long>(seed), of.rig.name.c_str(), of.arm.c_str(), is_reachable,
+      report.is_reachable, report.first_share, report.last_share,
+      report.hausdorff / options.tolerance, frame / options.tolerance, seconds);
+  for (const PlanObstacle& obstacle : report.obstacles)
+    std::printf("  [%d %s %.2f]", static_cast<int>(obstacle.kind), obstacle.value.c_str(),
+                obstacle.at);
+  std::printf("%s\n", report.is_reachable ? "" : is_true ? " true" : " FALSE");
+}
+
+double share(int part, int of) {
+  return of == 0 ? std::numeric_limits<double>::quiet_NaN() : static_cast<double>(part) / of;
+}
+
+std::optional<double> finite(double value) {
+  return std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+void print_summary(const Figures& figures) {
+  JsonObject summary;
+  summary.add("plan_cases", figures.cases);
+  summary.add("plan_reachable_by_search", figures.reachable);
+  summary.add("plan_reached", finite(share(figures.reached, figures.reachable)));
+  summary.add("plan_hausdorff_ok", finite(share(figures.hausdorff_ok, figures.planned)));
+  summary.add("plan_hausdorff_median", finite(median(figures.hausdorff)));
+  summary.add("plan_vs_ik", finite(median(figures.frame_hausdorff) / median(figures.hausdorff)));
+  summary.add("plan_depth_error_median", finite(median(figures.depth)));
+  summary.add("plan_angle_error_median", finite(median(figures.angle)));
+  summary.add("plan_seconds_median", finite(median(figures.seconds)));
+  summary.add("plan_same", finite(share(figures.same, figures.repeated)));
+  summary.add("plan_over_limits", figures.over_limits);
+  summary.add("plan_causes", figures.causes);
+  summary.add("plan_causes_true", finite(share(figures.causes_true, figures.causes)));
+  summary.end();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  int wanted = 100;
+  bool is_summary = false;
+  for (int i = 1; i < argc; ++i) {
+    if (std::strcmp(argv[i], "--summary") == 0) is_summary = true;
+    if (std::strcmp(argv[i], "--cases") == 0 && i + 1 < argc) wanted = std::atoi(argv[++i]);
+  }
+  const std::vector<MovingRig> rigs = moving_rigs();
+  const std::vector<Arm> known = arms();
+  Figures figures;
+  for (std::uint64_t seed = 0; figures.cases < wanted && seed < 10'000; ++seed)
+    if (const auto made = make_case(rigs, known, seed)) run_case(*made, seed, !is_summary, figures);
+  print_summary(figures);
+}

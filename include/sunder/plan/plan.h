@@ -1,0 +1,139 @@
+#pragma once
+
+#include <sunder/operation/operation.h>
+#include <sunder/robot/robot.h>
+#include <sunder/robot/trajectory.h>
+#include <sunder/tear/contact.h>
+#include <sunder/tear/report.h>
+
+#include <cstdint>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <vector>
+
+namespace sunder {
+
+// Which motion of a robot, or of a hand, makes a given wound on a character that moves. For
+// pipelines. Its library links Ceres, whose Debian package links parts of SuiteSparse that are
+// under the GPL. Method, accuracy and figures: docs/plan.md.
+
+/// A curve on the surface of a character, and how a blade shall pass along it.
+struct WoundTarget {
+  /// At least two places in triangles of the source. Between neighbours the curve follows the
+  /// surface below their chord, in the pose in which the motion begins.
+  std::vector<SurfaceAnchor> places;
+  bool is_closed = false;  ///< It ends where it begins.
+  /// Of the tip below the surface, metres, > 0: one for the curve, or one per place. In the first
+  /// and last 3 % of the length the blade goes down to it, and rises.
+  std::vector<double> depth = {0.01};
+  /// Between the blade and the surface along the curve, radians, in (0, pi): one for the curve, or
+  /// one per place. Below a right angle the blade's base leans in the direction of travel.
+  std::vector<double> angle = {std::numbers::pi / 2};
+};
+
+/// When the character is in which pose, and how long the motion takes.
+struct PlanTiming {
+  PoseSpec pose;           ///< Of the character when the motion begins.
+  double clip_speed = 0;   ///< As tear_of_sweep(): seconds of the clip per second.
+  double approach = 0.4;   ///< Seconds from the first place above the surface to the cut; > 0.
+  double cut = 1.0;        ///< Seconds for the curve; > 0.
+  double retreat = 0.4;    ///< Seconds from the end of the cut to the last place; > 0.
+  double standoff = 0.03;  ///< Of the tip above the surface at begin and end, metres; >= 0.
+  /// Whether `cut` is the least duration: it grows, to sixteen times at most, until joints keep
+  /// their speeds.
+  bool may_take_longer = false;
+};
+
+/// A robot with a blade on one of its links.
+struct PlanTool {
+  Robot robot;
+  MountedBlade blade;
+  Affine3d world_from_root = Affine3d::Identity();  ///< In the character's model space.
+};
+
+struct PlanOptions {
+  /// Largest distance of lips and curve, metres; 0: 1 % of the curve's length, and at least half a
+  /// thousandth of the diagonal of the posed character.
+  double tolerance = 0.0;
+  double maximum_acceleration = 0.0;  ///< Of every value, rad/s^2 or m/s^2; 0: no limit.
+  double spacing = 0.002;             ///< SweepOptions::spacing of the tear.
+  std::uint32_t seeds = 24;           ///< Random starts of the inverse kinematics.
+  TearOptions tear;                   ///< Of the tear that is made.
+};
+
+/// How much room a value of the robot keeps during a planned motion. Units of the value.
+struct ValueMargin {
+  std::string name;
+  double least = 0, greatest = 0;  ///< Of the value.
+  double to_limits = 0;            ///< Least distance from its limits; infinity without limits.
+  double greatest_speed = 0, speed_limit = 0;  ///< Per second; limit 0: none.
+  double greatest_acceleration = 0;            ///< Per second squared.
+};
+
+/// What stops a motion.
+struct PlanObstacle {
+  enum class Kind : std::uint8_t {
+    joint_limit,   ///< Without the limit of `value` the blade would come there.
+    joint_speed,   ///< `value` would have to move faster than its limit.
+    acceleration,  ///< `value` would have to accelerate more than is allowed.
+    reach,         ///< No values of the joints, within limits or not, bring the blade there.
+  };
+  Kind kind = Kind::reach;
+  std::string value;  ///< Name in Robot::values; empty for `reach`.
+  double at = 0;      ///< Share of the curve's length where it is met.
+};
+
+struct PlanReport {
+  double curve_length = 0;  ///< Metres, in the pose in which the motion begins.
+  double tolerance = 0;     ///< Metres.
+  /// Whether joints bring the blade to all of the curve, within all limits.
+  bool is_reachable = false;
+  /// The longest part of the curve that joints reach, shares of its length. 0 and 0: none.
+  double first_share = 0, last_share = 0;
+  std::vector<PlanObstacle> obstacles;  ///< Empty if reachable; the first one met first.
+
+  // The following is about a reachable curve.
+  double cut = 0;                       ///< Seconds that the cut takes.
+  double cut_begins = 0, cut_ends = 0;  ///< Seconds of the trajectory.
+  std::vector<ValueMargin> values;      ///< One per column of the trajectory.
+  /// Of the blade from the moving curve during the cut, metres: largest, and root mean square.
+  double most_place_error = 0, mean_place_error = 0;
+  double most_depth_error = 0, mean_depth_error = 0;  ///< Metres.
+  double most_angle_error = 0, mean_angle_error = 0;  ///< Radians.
+  /// Of the lips that the motion tears in a copy: largest and mean distance of lips and curve from
+  /// one another, in the pose in which the cut begins, and the largest one in all sampled poses of
+  /// all clips. Infinity if it tears nothing.
+  double hausdorff = 0, mean_distance = 0, hausdorff_in_clips = 0;
+  TearReport torn;  ///< Of that copy, which is torn without width and walls.
+};
+
+struct PlannedMotion {
+  PlanReport report;
+  RobotTrajectory trajectory;  ///< Only values that move the blade. Empty if not reachable.
+  TearOperation tear;          ///< What it does. Empty if not reachable.
+};
+
+/// Finds the motion. The same input gives the same bits on one machine; one thread.
+///
+/// @param character  satisfies validate_character().
+/// @return a motion, or a report that says why there is none; the first fault of character, robot
+///         or blade; invalid_argument, index_out_of_range, size_mismatch or non_finite_value, which
+///         name the place or the field; empty_input for a curve without length;
+///         unsupported_feature for a blade behind a floating joint; limit_exceeded: out of memory.
+///         About half a second for seven joints. Allocates.
+[[nodiscard]] SUNDER_API Result<PlannedMotion> plan_motion(
+    const std::shared_ptr<const Character>& character, const WoundTarget& target,
+    const PlanTiming& timing, const PlanTool& tool, const PlanOptions& options = {});
+
+/// A hand that holds a blade above the middle of a curve: three slides and three turns without
+/// limits. Its last link carries the blade along z, the tip in the origin; base to tip lie along
+/// the surface's normal when the turns are 0. A blade across the curve, flat on the surface, is
+/// singular.
+/// @param length  of the blade, metres, > 0.
+/// @return the failures of plan_motion() for character, target and timing; invalid_argument.
+[[nodiscard]] SUNDER_API Result<PlanTool> free_hand(
+    const std::shared_ptr<const Character>& character, const WoundTarget& target,
+    const PlanTiming& timing, double length);
+
+}  // namespace sunder

@@ -1,0 +1,171 @@
+#include "pipeline/plan/fit_spline.h"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <limits>
+#include <memory>
+
+#include <Eigen/Cholesky>
+#include <ceres/problem.h>
+#include <ceres/solver.h>
+#include <ceres/types.h>
+
+#include "pipeline/plan/spline_costs.h"
+
+namespace sunder::plan {
+namespace {
+
+constexpr int kMostSteps = 60;
+constexpr double kLeastGain = 1e-7;  ///< The solver stops when a step gains less of the cost.
+/// Errors of one: third differences of control points, radians or metres.
+constexpr double kRough = 2e-2;
+/// Differences from the start, which hold what nothing else does, such as turns of a blade about
+/// its own axis.
+constexpr double kAway = 1.0;
+constexpr double kMotionAtEnds = 1e-3;  ///< Differences at the ends, where the robot stands.
+/// Share of a limit of speed or acceleration up to which there is no cost, because the costs leave
+/// a small excess.
+constexpr double kOfLimit = 0.97;
+constexpr double kExcess = 2e-3;  ///< Share of a limit that is an error of one.
+
+/// The spline nearest to values at even times, by linear least squares with a little smoothing.
+std::vector<Values> fit_values(std::span<const Values> values, std::size_t intervals) {
+  const auto count = static_cast<Eigen::Index>(intervals + 3), size = values[0].size();
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(count, count);
+  Eigen::MatrixXd right = Eigen::MatrixXd::Zero(count, size);
+  const double last = static_cast<double>(values.size() - 1);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const SplineWeights of = spline_weights(static_cast<double>(i) / last, 1, intervals);
+    const auto first = static_cast<Eigen::Index>(of.first);
+    for (Eigen::Index a = 0; a < 4; ++a) {
+      const double weight = of.weights[static_cast<std::size_t>(a)];
+      right.row(first + a) += weight * values[i].transpose();
+      for (Eigen::Index b = 0; b < 4; ++b)
+        normal(first + a, first + b) += weight * of.weights[static_cast<std::size_t>(b)];
+    }
+  }
+  const double stencil[3] = {1, -2, 1};
+  for (Eigen::Index i = 0; i + 2 < count; ++i)
+    for (Eigen::Index a = 0; a < 3; ++a)
+      for (Eigen::Index b = 0; b < 3; ++b) normal(i + a, i + b) += 1e-3 * stencil[a] * stencil[b];
+  const Eigen::MatrixXd solved = normal.ldlt().solve(right);
+  std::vector<Values> control;
+  for (Eigen::Index i = 0; i < count; ++i) control.emplace_back(solved.row(i).transpose());
+  return control;
+}
+
+/// The problem that Ceres solves.
+class SplineProblem {
+ public:
+  SplineProblem(BladeChain& chain, JointSpline& spline) : chain_(chain), spline_(spline) {}
+
+  void add_errors(const std::vector<TargetSample>& samples, const ErrorScales& scales) {
+    for (const TargetSample& sample : samples) {
+      const SplineWeights of = spline_weights(sample.time, spline_.duration, spline_.intervals());
+      problem_.AddResidualBlock(new BladeCost(chain_, sample, scales, of.weights), nullptr,
+                                blocks(of.first, 4));
+    }
+  }
+
+  void add_smoothness() {
+    const std::size_t count = spline_.control.size();
+    for (std::size_t i = 0; i + 3 < count; ++i) add({-1, 3, -3, 1}, i, kRough);
+    for (std::size_t i = 0; i < count; ++i)
+      problem_.AddResidualBlock(
+          new StencilCost({1}, Values::Constant(size(), 1 / kAway), spline_.control[i]), nullptr,
+          blocks(i, 1));
+    for (const std::size_t i : {std::size_t{0}, count - 3}) {
+      add({-1, 0, 1}, i, kMotionAtEnds);
+      add({1, -2, 1}, i, kMotionAtEnds);
+    }
+  }
+
+  void add_limits(const SplineLimits& limits) {
+    const double step = spline_.step();
+    const std::size_t count = spline_.control.size();
+    if (has_any(limits.speed))
+      for (std::size_t i = 0; i + 1 < count; ++i) add_excess({-1, 1}, limits.speed, 1 / step, i);
+    if (has_any(limits.acceleration))
+      for (std::size_t i = 0; i + 2 < count; ++i)
+        add_excess({1, -2, 1}, limits.acceleration, 1 / (step * step), i);
+    for (Values& control : spline_.control)
+      for (int i = 0; i < static_cast<int>(size()); ++i) {
+        if (std::isfinite(limits.values.lower[i]))
+          problem_.SetParameterLowerBound(control.data(), i, limits.values.lower[i]);
+        if (std::isfinite(limits.values.upper[i]))
+          problem_.SetParameterUpperBound(control.data(), i, limits.values.upper[i]);
+      }
+  }
+
+  void solve() {
+    ceres::Solver::Options options;
+    options.num_threads = 1;
+    options.logging_type = ceres::SILENT;
+    options.max_num_iterations = kMostSteps;
+    options.function_tolerance = kLeastGain;
+    options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
+    options.dense_linear_algebra_library_type = ceres::EIGEN;
+    options.linear_solver_type =
+        ceres::IsSparseLinearAlgebraLibraryTypeAvailable(ceres::EIGEN_SPARSE)
+            ? ceres::SPARSE_NORMAL_CHOLESKY
+            : ceres::DENSE_NORMAL_CHOLESKY;
+    ceres::Solver::Summary summary;
+    ceres::Solve(options, &problem_, &summary);
+  }
+
+ private:
+  static bool has_any(const Values& limits) {
+    return std::any_of(limits.data(), limits.data() + limits.size(),
+                       [](double limit) { return std::isfinite(limit); });
+  }
+  [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(chain_.size()); }
+
+  std::vector<double*> blocks(std::size_t first, std::size_t count) {
+    std::vector<double*> of;
+    for (std::size_t i = 0; i < count; ++i) of.push_back(spline_.control[first + i].data());
+    return of;
+  }
+
+  void add(const std::vector<double>& stencil, std::size_t first, double scale) {
+    problem_.AddResidualBlock(
+        new StencilCost(stencil, Values::Constant(size(), 1 / scale), Values::Zero(size())),
+        nullptr, blocks(first, stencil.size()));
+  }
+
+  void add_excess(const std::vector<double>& stencil, const Values& limits, double per_step,
+                  std::size_t first) {
+    problem_.AddResidualBlock(new ExcessCost(stencil, kOfLimit / per_step * limits, kExcess),
+                              nullptr, blocks(first, stencil.size()));
+  }
+
+  BladeChain& chain_;
+  JointSpline& spline_;
+  ceres::Problem problem_;
+};
+
+}  // namespace
+
+Result<JointSpline> fit_spline(BladeChain& chain, const std::vector<TargetSample>& samples,
+                               const ErrorScales& scales, const SplineLimits& limits,
+                               std::span<const Values> start, std::size_t intervals) {
+  JointSpline spline;
+  spline.duration = samples.back().time;
+  spline.control = fit_values(start, intervals);
+  for (Values& control : spline.control)
+    control = control.cwiseMax(limits.values.lower).cwiseMin(limits.values.upper);
+  try {
+    SplineProblem problem(chain, spline);
+    problem.add_errors(samples, scales);
+    problem.add_smoothness();
+    problem.add_limits(limits);
+    problem.solve();
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    return Status::failure(StatusCode::internal_error, kNone, "Ceres: %s", error.what());
+  }
+  return spline;
+}
+
+}  // namespace sunder::plan

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <sunder/core/character.h>
+#include <sunder/plan/plan.h>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "pipeline/plan/posed_places.h"
+#include "pipeline/plan/timeline.h"
+
+namespace sunder::plan {
+
+/// Where a blade shall be at a time: model space.
+struct TargetSample {
+  double time = 0;
+  double share = 0;              ///< Of the curve's length.
+  double lift = 0;               ///< Timeline::lift_at().
+  Vec3d place = Vec3d::Zero();   ///< On the curve, posed.
+  Vec3d normal = Vec3d::Zero();  ///< Of the surface there, unit length.
+  Vec3d handle = Vec3d::Zero();  ///< From tip to base, unit length.
+  double depth = 0;              ///< Of the tip below `place` along -normal; below 0: above it.
+  double full_depth = 0;  ///< The wanted depth there; less than that near the ends of the curve.
+  bool is_full = false;   ///< Whether `depth` is that.
+};
+
+/// A WoundTarget as a dense run of places in triangles.
+class TargetPath {
+ public:
+  /// @param character  kept by reference.
+  /// @param pose       in which the curve is laid on the surface.
+  static Result<TargetPath> create(const std::shared_ptr<const Character>& character,
+                                   const WoundTarget& target, const ModelPose& pose);
+
+  [[nodiscard]] double length() const { return along_.back(); }
+  [[nodiscard]] const std::vector<SurfaceAnchor>& anchors() const { return anchors_; }
+
+  /// @param pose  of the character at that time.
+  Status sample(const ModelPose& pose, double standoff, TargetSample& sample) const;
+
+ private:
+  TargetPath() = default;
+
+  std::shared_ptr<const Character> character_;
+  std::vector<SurfaceAnchor> anchors_;
+  std::vector<double> along_;          ///< Length from the begin to each anchor, metres.
+  std::vector<double> depth_, angle_;  ///< At each anchor.
+  bool is_closed_ = false;
+  std::optional<PosedPlaces> places_;  ///< The anchors.
+};
+
+/// The samples of a motion at even times, `count` + 1 of them from 0 to the end of the timeline.
+Result<std::vector<TargetSample>> sample_target(const Character& character, const TargetPath& path,
+                                                const PlanTiming& timing, std::uint32_t count);
+
+/// The pose of the character at a time of the motion.
+Result<ModelPose> pose_at(const Character& character, const PlanTiming& timing, double time);
+
+}  // namespace sunder::plan

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <sunder/plan/plan.h>
+
+namespace sunder::plan {
+
+/// Where the blade shall be along the curve and above it at a time: it comes down at the begin of
+/// the curve, follows it, and rises at its end.
+class Timeline {
+ public:
+  explicit Timeline(const PlanTiming& timing) : timing_(timing) {}
+
+  [[nodiscard]] double cut_begins() const { return timing_.approach; }
+  [[nodiscard]] double cut_ends() const { return timing_.approach + timing_.cut; }
+  [[nodiscard]] double end() const { return cut_ends() + timing_.retreat; }
+
+  /// Share of the curve's length. Starts and stops with a continuous acceleration.
+  [[nodiscard]] double share_at(double time) const;
+  /// 0 during the cut, 1 at begin and end of the motion.
+  [[nodiscard]] double lift_at(double time) const;
+
+ private:
+  PlanTiming timing_;
+};
+
+}  // namespace sunder::plan

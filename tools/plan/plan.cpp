@@ -1,0 +1,188 @@
+#include <sunder/io/robot_file.h>
+#include <sunder/io/trajectory_file.h>
+#include <sunder/skinning/pose.h>
+
+#include <deque>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tools/messages/json_file.h"
+#include "tools/messages/lines.h"
+#include "tools/messages/output_file.h"
+#include "tools/messages/overwriting.h"
+#include "tools/messages/text_file.h"
+#include "tools/messages/written_file.h"
+#include "tools/model/load_notes.h"
+#include "tools/model/name_advice.h"
+#include "tools/model/pose_argument.h"
+#include "tools/plan/curve_file.h"
+#include "tools/plan/hand_file.h"
+#include "tools/plan/plan_report.h"
+#include "tools/verbs.h"
+
+namespace sunder::tools {
+namespace {
+
+/// The first output that cannot be written, or would overwrite a file that is read; empty if there
+/// is none.
+std::string fault_of_outputs(const PlanRequest& request) {
+  std::vector<NamedFile> inputs = {{"MODEL", request.model}, {"--curve", request.curve}};
+  std::vector<NamedFile> outputs = {{"--output", request.robot.trajectory}};
+  if (!request.hand) inputs.push_back({"--robot", request.robot.robot});
+  if (request.hand) outputs.push_back({"--hand", *request.hand});
+  if (request.tear) outputs.push_back({"--tear", *request.tear});
+  if (request.picture) outputs.push_back({"--picture", *request.picture});
+  if (request.report) outputs.push_back({"--report", *request.report});
+  const std::string fault = overwriting(inputs, outputs);
+  return fault.empty() ? impossible_output(outputs) : fault;
+}
+
+/// What is read, and what is made of it.
+struct PlanRun {
+  LoadedCharacter loaded;
+  WoundTarget target;
+  PlanTiming timing;
+  PlanTool tool;
+  std::string hand;  ///< The text of --hand.
+};
+
+ExitCode read_character(const PlanRequest& request, const Messages& messages, PlanRun& run) {
+  Result<LoadedCharacter> loaded = load_character(request.model, load_options(request.reading));
+  if (!loaded) return complain(request.model.string(), loaded.error(), ExitCode::unreadable_input);
+  run.loaded = std::move(*loaded);
+  warn_of_repairs(request.model.string(), run.loaded.report, messages);
+  const Character& character = *run.loaded.character;
+  const Result<PoseArgument> pose = parse_pose(request.robot.pose, character);
+  if (!pose)
+    return complain("--pose", pose.error(), ExitCode::usage,
+                    advice_on_pose(request.robot.pose, character));
+  if (!pose->remark.empty()) messages.warn("--pose: " + pose->remark);
+  run.timing = request.timing;
+  run.timing.pose = pose->spec;
+  run.timing.clip_speed = request.robot.clip_speed;
+  const Result<ModelPose> posed = make_pose(character, pose->spec);
+  if (!posed) return complain("--pose", posed.error(), ExitCode::usage);
+  Result<WoundTarget> target = read_curve(request.curve, run.loaded.character, *posed);
+  if (!target) return complain(request.curve.string(), target.error(), ExitCode::usage);
+  run.target = std::move(*target);
+  return ExitCode::ok;
+}
+
+ExitCode read_robot(const PlanRequest& request, const Messages& messages, PlanRun& run) {
+  const std::string& file = request.robot.robot.string();
+  Result<LoadedRobot> loaded = load_robot(request.robot.robot, robot_load_options(request.reading));
+  if (!loaded) return complain(file, loaded.error(), ExitCode::unreadable_input);
+  warn_of_protection(file, loaded->model.report, messages);
+  for (const RobotFinding& finding : loaded->findings)
+    if (finding.severity == RobotSeverity::warning)
+      messages.warn(file + ": " + (finding.place.empty() ? "" : finding.place + ": ") +
+                    finding.text);
+  std::vector<std::string> names;
+  for (const RobotLink& link : loaded->robot.links) names.push_back(link.name);
+  run.tool.blade = {find_link(loaded->robot, request.robot.link), request.robot.base,
+                    request.robot.tip};
+  if (run.tool.blade.link == kNone)
+    return complain("--blade",
+                    Status::failure(StatusCode::not_found, kNone, "the robot has no link '%.80s'",
+                                    request.robot.link.c_str()),
+                    ExitCode::usage, name_advice(request.robot.link, "links", names));
+  run.tool.robot = std::move(loaded->robot);
+  run.tool.world_from_root = request.robot.place * loaded->model_from_root;
+  return ExitCode::ok;
+}
+
+/// Places a hand above the curve.
+ExitCode make_hand(const PlanRequest& request, PlanRun& run) {
+  Result<PlanTool> hand =
+      free_hand(run.loaded.character, run.target, run.timing, request.hand_blade);
+  if (!hand) return complain(request.curve.string(), hand.error(), ExitCode::usage);
+  run.tool = std::move(*hand);
+  // Robots have z up and characters y: what load_robot() turns.
+  Affine3d model_from_file = Affine3d::Identity();
+  model_from_file.linear() << 1, 0, 0, 0, 0, 1, 0, -1, 0;
+  Affine3d root_from_hand = run.tool.world_from_root;
+  root_from_hand.linear() =
+      model_from_file.linear().transpose() * run.tool.world_from_root.linear();
+  root_from_hand.translation() =
+      model_from_file.linear().transpose() * run.tool.world_from_root.translation();
+  run.hand = hand_urdf(root_from_hand, request.hand_blade);
+  return ExitCode::ok;
+}
+
+/// Writes trajectory, hand and report: all or none.
+ExitCode write_plan(const PlanRequest& request, const PlanRun& run, const PlannedMotion& planned) {
+  std::vector<std::pair<std::filesystem::path, std::string>> files;
+  if (planned.report.is_reachable) {
+    const Result<std::string> csv = trajectory_csv(planned.trajectory);
+    if (!csv) return complain("--output", csv.error(), ExitCode::internal_error);
+    files.emplace_back(request.robot.trajectory, *csv);
+    if (request.hand) files.emplace_back(*request.hand, run.hand);
+  }
+  if (request.report) files.emplace_back(*request.report, dump(plan_json(request, planned.report)));
+  std::deque<StagedFile> staged;  // which cannot be moved
+  for (const auto& [file, text] : files) {
+    staged.emplace_back(file, bytes_of(text));
+    if (!staged.back().status())
+      return complain(file.string(), staged.back().status(), ExitCode::unreadable_input);
+  }
+  for (std::size_t i = 0; i < staged.size(); ++i)
+    if (const Status status = staged[i].commit(); !status)
+      return complain(files[i].first.string(), status, ExitCode::unreadable_input);
+  return ExitCode::ok;
+}
+
+/// Tears the model as `sunder tear --robot --trajectory` does it.
+ExitCode tear_planned(const PlanRequest& request) {
+  TearRequest tear;
+  tear.model = request.model;
+  tear.robot = request.robot;
+  if (request.hand) {
+    tear.robot->robot = *request.hand;
+    tear.robot->link = "blade";
+    tear.robot->base = Vec3d(0, 0, request.hand_blade);
+    tear.robot->tip = Vec3d::Zero();
+    tear.robot->place = Affine3d::Identity();
+  }
+  tear.robot->options = request.options.tear;
+  tear.output = request.tear;
+  tear.picture = request.picture;
+  tear.reading = request.reading;
+  tear.budget = request.budget;
+  tear.verbosity = Verbosity::quiet;
+  return run_tear(tear);
+}
+
+}  // namespace
+
+ExitCode run_plan(const PlanRequest& request) {
+  if (const std::string fault = fault_of_outputs(request); !fault.empty()) {
+    print_error("sunder: " + fault);
+    return ExitCode::usage;
+  }
+  const Messages messages(request.verbosity);
+  std::optional<Budget> budget(std::in_place, request.budget, request.model.string());
+  PlanRun run;
+  if (const ExitCode code = read_character(request, messages, run); code != ExitCode::ok)
+    return code;
+  const ExitCode code = request.hand ? make_hand(request, run) : read_robot(request, messages, run);
+  if (code != ExitCode::ok) return code;
+  PlanOptions options = request.options;
+  options.spacing = request.robot.spacing;
+  const Result<PlannedMotion> planned =
+      plan_motion(run.loaded.character, run.target, run.timing, run.tool, options);
+  if (!planned) return complain("plan", planned.error(), ExitCode::usage);
+  budget.reset();
+  if (const ExitCode written = write_plan(request, run, *planned); written != ExitCode::ok)
+    return written;
+  if (request.verbosity != Verbosity::quiet) print_text(plan_summary(planned->report));
+  for (const PlanObstacle& obstacle : planned->report.obstacles)
+    messages.warn(obstacle_text(obstacle));
+  if (!planned->report.is_reachable) return ExitCode::findings;
+  const ExitCode torn = request.tear ? tear_planned(request) : ExitCode::ok;
+  if (torn != ExitCode::ok) return torn;
+  return has_losses(run.loaded.report) ? ExitCode::findings : ExitCode::ok;
+}
+
+}  // namespace sunder::tools

@@ -1,0 +1,10 @@
+#include "tools/model/ceres_program.h"
+#include "tools/verbs.h"
+
+namespace sunder::tools {
+
+ExitCode run_plan(const PlanRequest&) {
+  return complain("plan", become_ceres_program("motions are planned"), ExitCode::usage);
+}
+
+}  // namespace sunder::tools

@@ -1,0 +1,115 @@
+#include "tools/plan/plan_report.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "tools/messages/printed.h"
+
+namespace sunder::tools {
+namespace {
+
+const char* kind_name(PlanObstacle::Kind kind) {
+  switch (kind) {
+    case PlanObstacle::Kind::joint_limit: return "joint_limit";
+    case PlanObstacle::Kind::joint_speed: return "joint_speed";
+    case PlanObstacle::Kind::acceleration: return "acceleration";
+    case PlanObstacle::Kind::reach: break;
+  }
+  return "reach";
+}
+
+/// Infinity is null in JSON.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+Json value_json(const ValueMargin& margin) {
+  return {{"name", margin.name},
+          {"least", margin.least},
+          {"greatest", margin.greatest},
+          {"to_limits", number(margin.to_limits)},
+          {"greatest_speed", margin.greatest_speed},
+          {"speed_limit", margin.speed_limit > 0 ? Json(margin.speed_limit) : Json()},
+          {"greatest_acceleration", margin.greatest_acceleration}};
+}
+
+Json error_json(double most, double mean) { return {{"most", most}, {"mean", mean}}; }
+
+double degrees(double radians) { return radians * 180 / std::numbers::pi; }
+
+}  // namespace
+
+std::string obstacle_text(const PlanObstacle& obstacle) {
+  const std::string name = obstacle.value;
+  const double at = 100 * obstacle.at;
+  switch (obstacle.kind) {
+    case PlanObstacle::Kind::joint_limit:
+      return printed("'%s' would have to leave its limits at %.0f %% of the curve", name.c_str(),
+                     at);
+    case PlanObstacle::Kind::joint_speed:
+      return printed("'%s' is too slow at %.0f %% of the curve", name.c_str(), at);
+    case PlanObstacle::Kind::acceleration:
+      return printed("'%s' would have to accelerate too much at %.0f %% of the curve", name.c_str(),
+                     at);
+    case PlanObstacle::Kind::reach: break;
+  }
+  return printed("%.0f %% of the curve is out of reach", at);
+}
+
+Json plan_json(const PlanRequest& request, const PlanReport& report) {
+  Json json = {{"sunder_plan", 1},
+               {"model", request.model.string()},
+               {"curve", request.curve.string()},
+               {"robot", (request.hand ? *request.hand : request.robot.robot).string()},
+               {"pose", request.robot.pose},
+               {"clip_speed", request.robot.clip_speed},
+               {"curve_length", report.curve_length},
+               {"tolerance", report.tolerance},
+               {"is_reachable", report.is_reachable},
+               {"reached_part", {report.first_share, report.last_share}}};
+  Json& obstacles = json["obstacles"] = Json::array();
+  for (const PlanObstacle& obstacle : report.obstacles)
+    obstacles.push_back({{"kind", kind_name(obstacle.kind)},
+                         {"value", obstacle.value.empty() ? Json() : Json(obstacle.value)},
+                         {"at", obstacle.at}});
+  if (!report.is_reachable) return json;
+  json["cut"] = {{"seconds", report.cut}, {"begins", report.cut_begins}, {"ends", report.cut_ends}};
+  json["place_error"] = error_json(report.most_place_error, report.mean_place_error);
+  json["depth_error"] = error_json(report.most_depth_error, report.mean_depth_error);
+  json["angle_error"] =
+      error_json(degrees(report.most_angle_error), degrees(report.mean_angle_error));
+  json["lips"] = {{"hausdorff", number(report.hausdorff)},
+                  {"mean_distance", number(report.mean_distance)},
+                  {"hausdorff_in_clips", number(report.hausdorff_in_clips)}};
+  Json& values = json["values"] = Json::array();
+  for (const ValueMargin& margin : report.values) values.push_back(value_json(margin));
+  return json;
+}
+
+std::string plan_summary(const PlanReport& report) {
+  std::string text =
+      printed("curve       %.4g m, tolerance %.3g m\n", report.curve_length, report.tolerance);
+  if (!report.is_reachable) {
+    text += report.last_share > report.first_share
+                ? printed("reachable   from %.0f %% to %.0f %% of the curve\n",
+                          100 * report.first_share, 100 * report.last_share)
+                : std::string("reachable   no part of the curve\n");
+    return text;
+  }
+  text += printed("cut         %.4g s, from %.4g s on\n", report.cut, report.cut_begins);
+  text +=
+      printed("lips        at most %.3g m from the curve, %.3g m on average; in all clips %.3g m\n",
+              report.hausdorff, report.mean_distance, report.hausdorff_in_clips);
+  text += printed("depth       off by %.3g m at most, %.3g m on average\n", report.most_depth_error,
+                  report.mean_depth_error);
+  text += printed("angle       off by %.3g degrees at most, %.3g on average\n",
+                  degrees(report.most_angle_error), degrees(report.mean_angle_error));
+  for (const ValueMargin& margin : report.values) {
+    text += printed("%-11s %.4g to %.4g", margin.name.c_str(), margin.least, margin.greatest);
+    if (std::isfinite(margin.to_limits)) text += printed(", %.3g to its limits", margin.to_limits);
+    text += printed("; %.3g a second", margin.greatest_speed);
+    if (margin.speed_limit > 0) text += printed(" of %.3g", margin.speed_limit);
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace sunder::tools
