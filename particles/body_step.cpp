@@ -78,7 +78,7 @@ void BodyState::follow_pose(double seconds) {
 void BodyState::pull_lips(const TornModel& model, const ModelPose& pose, bool is_posed) {
   if (!outer.is_tension_stale && (!is_posed || set->lips().empty())) return;
   outer.of_pose.update(*set, model, poses.at(model, pose, rests.epoch()), materials,
-                       motion.material_of);
+                       motion.material_of, graph.local);
   particles::pull_lips(*set, outer.tension, outer.of_pose.added(), motion, scratch.sums,
                        scratch.changed);
   for (const Index p : scratch.changed)

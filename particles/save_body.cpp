@@ -17,12 +17,13 @@ using particles::kMostRecordedSeconds;
 using particles::Motion;
 using particles::Tape;
 
-constexpr std::uint32_t kBodyVersion = 6;
+constexpr std::uint32_t kBodyVersion = 7;
 
 void describe(Tape& tape, SoftMaterial& of) {
-  for (double* value : {&of.return_frequency, &of.damping_ratio, &of.membrane_stiffness,
-                        &of.membrane_damping, &of.areal_density, &of.range, &of.stretch_limit,
-                        &of.strength, &of.toughness, &of.flaw_length})
+  for (double* value :
+       {&of.return_frequency, &of.damping_ratio, &of.membrane_stiffness, &of.membrane_damping,
+        &of.areal_density, &of.range, &of.stretch_limit, &of.strength, &of.toughness,
+        &of.flaw_length, &of.yield_stretch, &of.plastic_limit})
     tape(*value);
   if (!tape.is_reading()) return;
   if (const Status status = validate_material(of); !status)

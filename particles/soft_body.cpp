@@ -413,8 +413,10 @@ Vec3d SoftBody::point_displacement(std::uint32_t point) const {
 
 double SoftBody::mass(std::uint32_t particle) const {
   SUNDER_ASSERT(particle < particle_count());
-  return particles::mass_of(*state_->set, state_->materials[state_->motion.material_of[particle]],
-                            particle);
+  const SoftMaterial& material = state_->materials[state_->motion.material_of[particle]];
+  if (const particles::PointFactors* factors = particles::factors_at(*state_->set, particle))
+    return particles::mass_of(*state_->set, particles::with_factors(material, *factors), particle);
+  return particles::mass_of(*state_->set, material, particle);
 }
 std::uint32_t SoftBody::particle_count() const { return state_->motion.count(); }
 bool SoftBody::is_awake(std::uint32_t particle) const {

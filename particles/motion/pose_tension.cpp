@@ -10,16 +10,6 @@
 namespace sunder::particles {
 namespace {
 
-/// The direction across a plane, from moments in it: the longest column of their adjugate.
-Vec3d across(const Mat3d& moments) {
-  Vec3d longest = Vec3d::Zero();
-  for (int i = 0; i < 3; ++i) {
-    const Vec3d column = moments.col((i + 1) % 3).cross(moments.col((i + 2) % 3));
-    if (squared_norm(column) > squared_norm(longest)) longest = column;
-  }
-  return normalized(longest);
-}
-
 /// The square root of a symmetric positive semidefinite matrix.
 Eigen::Matrix2d root_of(const Eigen::Matrix2d& m) {
   const double root = std::sqrt(std::max(0.0, m(0, 0) * m(1, 1) - m(0, 1) * m(1, 0)));
@@ -30,8 +20,17 @@ Eigen::Matrix2d root_of(const Eigen::Matrix2d& m) {
 
 }  // namespace
 
+Vec3d across_plane(const Mat3d& moments) {
+  Vec3d longest = Vec3d::Zero();
+  for (int i = 0; i < 3; ++i) {
+    const Vec3d column = moments.col((i + 1) % 3).cross(moments.col((i + 2) % 3));
+    if (squared_norm(column) > squared_norm(longest)) longest = column;
+  }
+  return normalized(longest);
+}
+
 Mat3d strain_of(const Mat3d& moments, const Mat3d& moved) {
-  const Vec3d normal = across(moments);
+  const Vec3d normal = across_plane(moments);
   if (normal.isZero(0)) return Mat3d::Zero();
   Eigen::Matrix<double, 3, 2> plane;
   plane.col(0) = normal.unitOrthogonal();
@@ -58,7 +57,7 @@ void PoseTension::resize(Index particles) {
 
 void PoseTension::update(const ParticleSet& set, const TornModel& model, const SurfacePose& pose,
                          std::span<const SoftMaterial> materials,
-                         std::span<const Index> material_of) {
+                         std::span<const Index> material_of, std::span<const SoftMaterial> local) {
   std::fill(added_.begin(), added_.end(), Mat3d::Zero());
   std::fill(is_posed_.begin(), is_posed_.end(), std::uint8_t{0});
   std::fill(is_known_.begin(), is_known_.end(), std::uint8_t{0});
@@ -81,7 +80,9 @@ void PoseTension::update(const ParticleSet& set, const TornModel& model, const S
     const Mat3d strain = strain_of(moments, moved);
     const double rounding = kRoundedStrain * norm(seed_before(particle));
     if (squared_norm(strain) * trace(moments) <= rounding * rounding * couplings) return;
-    added_[particle] = materials[material_of[particle]].membrane_stiffness * strain;
+    const SoftMaterial& material =
+        local.empty() ? materials[material_of[particle]] : local[particle];
+    added_[particle] = material.membrane_stiffness * strain;
   };
   for (const LipEdge& lip : set.lips())
     for (const Index point : lip.points)

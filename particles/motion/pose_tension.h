@@ -17,7 +17,8 @@ class PoseTension {
   /// neighbours x influences), no allocation.
   /// @param material_of  per particle.
   void update(const ParticleSet& set, const TornModel& model, const SurfacePose& pose,
-              std::span<const SoftMaterial> materials, std::span<const Index> material_of);
+              std::span<const SoftMaterial> materials, std::span<const Index> material_of,
+              std::span<const SoftMaterial> local);
 
   /// Per particle: S (U - I), N/m, with the material's membrane stiffness S and the stretch U of
   /// the tissue around the particle; symmetric, in the plane of the surface and the decomposition's
@@ -30,6 +31,10 @@ class PoseTension {
   std::vector<Vec3d> posed_seeds_;  ///< Where `is_posed_`.
   std::vector<std::uint8_t> is_posed_, is_known_;
 };
+
+/// The unit direction across a plane, from moments of vectors in it: the longest column of their
+/// adjugate. Zero if the vectors are all in a row.
+[[nodiscard]] Vec3d across_plane(const Mat3d& moments);
 
 /// How much tissue is stretched, U - I in its plane, from how vectors in it change.
 ///
