@@ -14,7 +14,7 @@ std::size_t bytes_of(const Motion& motion) {
        {&motion.displacements, &motion.velocities, &motion.starts, &motion.forces,
         &motion.lip_forces, &motion.winds, &motion.quiet.from, &motion.quiet.pulls})
     bytes += bytes_of(*column);
-  return bytes;
+  return bytes + bytes_of(motion.plastic.strains) + bytes_of(motion.plastic.forces);
 }
 
 std::size_t bytes_of(const ShownMotion& shown) {

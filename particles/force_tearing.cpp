@@ -1,6 +1,8 @@
 #include <sunder/particles/force_tearing.h>
+#include <sunder/tear/preview.h>
 
 #include <algorithm>
+#include <cmath>
 #include <new>
 
 #include "core/internal/ordered.h"
@@ -30,6 +32,15 @@ Tissue tissue_of(const SoftBody& body, const ParticleSet& set, const TornModel& 
           state.graph,
           tension,
           tension.adds_pose_strain ? state.outer.of_pose.added() : std::span<const Mat3d>()};
+}
+
+/// Whether the speed of tearing allows a tear of this length in the last step: once each time in
+/// which it covers the length.
+bool may_tear_now(const SoftBody& body, double length, double metres_per_second) {
+  const OuterForces& outer = BodyStateOf::in(body).outer;
+  if (!std::isfinite(metres_per_second)) return true;
+  const double rate = metres_per_second / length;
+  return std::floor(outer.time * rate) > std::floor((outer.time - outer.step_seconds) * rate);
 }
 
 /// Whether any material tears by force.
@@ -119,8 +130,7 @@ class Starts {
   std::size_t next_tip_ = 0, next_place_ = 0;
 };
 
-Result<TearReport> run_tear(TornModel& model, const ModelPose& pose, const ShortTear& tear,
-                            ChangeRecord& change) {
+Stroke stroke_of(const ShortTear& tear) {
   const auto blade = [&](const Vec3d& at, const Vec3d& normal) {
     const Vec3d depth = tear.length * normal;
     return Blade{at + depth, at - depth};
@@ -128,16 +138,34 @@ Result<TearReport> run_tear(TornModel& model, const ModelPose& pose, const Short
   Stroke stroke = {blade(tear.from, tear.normal)};
   if (tear.path.empty())
     stroke.push_back(blade(tear.from + tear.length * tear.direction, tear.normal));
-  for (const auto& [at, normal] : tear.path)
-    if (norm(Vec3d(at - (stroke.back().base + stroke.back().tip) / 2)) > 0)
+  Vec3d before = tear.from;
+  for (const auto& [at, normal] : tear.path) {
+    if (norm(Vec3d(at - before)) > 0)
       stroke.push_back(blade(at, normal.isZero(0) ? tear.normal : normal));
+    before = at;
+  }
+  return stroke;
+}
+
+/// Tears, unless a piece that is too small would come off: then it reports a miss.
+Result<TearReport> run_tear(TornModel& model, const ModelPose& pose, const ShortTear& tear,
+                            double least_piece_area, ChangeRecord& change) {
+  const Stroke stroke = stroke_of(tear);
+  if (least_piece_area > 0) {
+    const auto preview = preview_tear(model, pose, stroke);
+    if (!preview) return preview.error();
+    if (std::ranges::any_of(preview->piece_areas,
+                            [&](double area) { return area < least_piece_area; }))
+      return TearReport();
+  }
   return model.tear(pose, stroke, {}, &change);
 }
 
 /// Tears at the first of the starts where the surface can be torn.
 /// @param records  the record of the tear is appended, if there is one.
 Status tear_first(const Tissue& tissue, Starts& starts, TornModel& model, const ModelPose& pose,
-                  double length, ForceTearingReport& report, std::vector<ChangeRecord>& records) {
+                  double length, double least_piece_area, ForceTearingReport& report,
+                  std::vector<ChangeRecord>& records) {
   TearStart start = starts.next();
   if (start.point == kNone) return {};
   SurfacePose posed;
@@ -148,7 +176,7 @@ Status tear_first(const Tissue& tissue, Starts& starts, TornModel& model, const 
   for (int i = 0; i < kMostAttempts && start.point != kNone; ++i, start = starts.next()) {
     const ShortTear tear = place_tear(tissue, posed, start, length);
     if (tear.normal.isZero(0)) continue;
-    auto torn = run_tear(model, pose, tear, change);
+    auto torn = run_tear(model, pose, tear, least_piece_area, change);
     if (!torn) return torn.error();
     if (torn->runs == 0) continue;
     report.has_torn = true;
@@ -177,6 +205,14 @@ Result<ForceTearingReport> tear_overstretched(const SoftBody& body, ParticleSet&
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "the tear length is %g metres per call; it must be above 0",
                            options.metres);
+  if (!(options.metres_per_second > 0))
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "the speed of tearing is %g m/s; it must be above 0",
+                           options.metres_per_second);
+  if (!(options.least_piece_area >= 0))
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "the least area of a piece is %g m^2; it must not be below 0",
+                           options.least_piece_area);
   if (body.particle_count() != particles.particle_count())
     return Status::failure(StatusCode::size_mismatch, kNone,
                            "the body has %u particles, the set has %u; step the body first",
@@ -196,7 +232,9 @@ Result<ForceTearingReport> tear_overstretched(const SoftBody& body, ParticleSet&
     if (!tips) return tips.error();
     particles::Starts starts(tissue, std::move(overstretched), *tips, length,
                              report.greatest_release);
-    status = particles::tear_first(tissue, starts, model, pose, length, report, records);
+    if (!particles::may_tear_now(body, length, options.metres_per_second)) return report;
+    status = particles::tear_first(tissue, starts, model, pose, length, options.least_piece_area,
+                                   report, records);
     if (status && report.has_torn) status = particles.follow(model, std::span(&records.back(), 1));
   } catch (const std::bad_alloc&) {
     status = Status::failure(StatusCode::limit_exceeded, kNone, "out of memory");

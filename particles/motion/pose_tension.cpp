@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "core/internal/ordered.h"
@@ -18,6 +19,26 @@ Eigen::Matrix2d root_of(const Eigen::Matrix2d& m) {
   return (m + root * Eigen::Matrix2d::Identity()) / sum;
 }
 
+/// Two directions of a plane, and the linear map of it that fits best how vectors in it change.
+struct Fit {
+  Eigen::Matrix<double, 3, 2> plane, gradient;
+};
+
+std::optional<Fit> fit_in_plane(const Mat3d& moments, const Mat3d& moved) {
+  const Vec3d normal = across_plane(moments);
+  if (normal.isZero(0)) return {};
+  Eigen::Matrix<double, 3, 2> plane;
+  plane.col(0) = normal.unitOrthogonal();
+  plane.col(1) = normal.cross(plane.col(0));
+  const Eigen::Matrix2d in_plane = multiply(plane.transpose(), multiply(moments, plane));
+  const double size = trace(in_plane),
+               determinant = in_plane(0, 0) * in_plane(1, 1) - in_plane(0, 1) * in_plane(1, 0);
+  if (!(determinant > kRowDeterminantFraction * size * size)) return {};
+  Eigen::Matrix2d adjugate;
+  adjugate << in_plane(1, 1), -in_plane(0, 1), -in_plane(1, 0), in_plane(0, 0);
+  return Fit{plane, multiply(multiply(moved, plane), Eigen::Matrix2d(adjugate / determinant))};
+}
+
 }  // namespace
 
 Vec3d across_plane(const Mat3d& moments) {
@@ -29,20 +50,15 @@ Vec3d across_plane(const Mat3d& moments) {
   return normalized(longest);
 }
 
+Mat3d gradient_in_plane(const Mat3d& moments, const Mat3d& moved) {
+  const std::optional<Fit> fit = fit_in_plane(moments, moved);
+  return fit ? Mat3d(multiply(fit->gradient, fit->plane.transpose())) : Mat3d(Mat3d::Zero());
+}
+
 Mat3d strain_of(const Mat3d& moments, const Mat3d& moved) {
-  const Vec3d normal = across_plane(moments);
-  if (normal.isZero(0)) return Mat3d::Zero();
-  Eigen::Matrix<double, 3, 2> plane;
-  plane.col(0) = normal.unitOrthogonal();
-  plane.col(1) = normal.cross(plane.col(0));
-  const Eigen::Matrix2d in_plane = multiply(plane.transpose(), multiply(moments, plane));
-  const double size = trace(in_plane),
-               determinant = in_plane(0, 0) * in_plane(1, 1) - in_plane(0, 1) * in_plane(1, 0);
-  if (!(determinant > kRowDeterminantFraction * size * size)) return Mat3d::Zero();
-  Eigen::Matrix2d adjugate;
-  adjugate << in_plane(1, 1), -in_plane(0, 1), -in_plane(1, 0), in_plane(0, 0);
-  const Eigen::Matrix<double, 3, 2> gradient =
-      multiply(multiply(moved, plane), Eigen::Matrix2d(adjugate / determinant));
+  const std::optional<Fit> fit = fit_in_plane(moments, moved);
+  if (!fit) return Mat3d::Zero();
+  const auto& [plane, gradient] = *fit;
   const Eigen::Matrix2d strain =
       root_of(multiply(gradient.transpose(), gradient)) - Eigen::Matrix2d::Identity();
   return multiply(plane, multiply(strain, plane.transpose()));
@@ -57,7 +73,7 @@ void PoseTension::resize(Index particles) {
 
 void PoseTension::update(const ParticleSet& set, const TornModel& model, const SurfacePose& pose,
                          std::span<const SoftMaterial> materials,
-                         std::span<const Index> material_of, std::span<const SoftMaterial> local) {
+                         std::span<const Index> material_of, const SpringGraph& graph) {
   std::fill(added_.begin(), added_.end(), Mat3d::Zero());
   std::fill(is_posed_.begin(), is_posed_.end(), std::uint8_t{0});
   std::fill(is_known_.begin(), is_known_.end(), std::uint8_t{0});
@@ -80,8 +96,7 @@ void PoseTension::update(const ParticleSet& set, const TornModel& model, const S
     const Mat3d strain = strain_of(moments, moved);
     const double rounding = kRoundedStrain * norm(seed_before(particle));
     if (squared_norm(strain) * trace(moments) <= rounding * rounding * couplings) return;
-    const SoftMaterial& material =
-        local.empty() ? materials[material_of[particle]] : local[particle];
+    const SoftMaterial& material = graph.material(particle, materials, material_of);
     added_[particle] = material.membrane_stiffness * strain;
   };
   for (const LipEdge& lip : set.lips())

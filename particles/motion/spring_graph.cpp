@@ -99,7 +99,7 @@ void connect(const ParticleSet& set, std::span<const SoftMaterial> materials,
     if (const PointFactors* factors = factors_at(set, p))
       graph.local.push_back(with_factors(materials[material_of[p]], *factors));
   const auto material = [&](Index p) -> const SoftMaterial& {
-    return graph.local.empty() ? materials[material_of[p]] : graph.local[p];
+    return graph.material(p, materials, material_of);
   };
   const auto seed_of = [&](Index p) { return set.positions()[set.seed(p)]; };
   const std::vector<std::array<Index, 2>> crowded = crowded_pairs(set);

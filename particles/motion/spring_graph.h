@@ -31,6 +31,12 @@ struct SpringGraph {
   std::vector<SoftMaterial> local;
   bool is_stale = true;  ///< Whether particles or materials changed since connect().
 
+  /// The material of a particle, with its factors.
+  [[nodiscard]] const SoftMaterial& material(Index particle,
+                                             std::span<const SoftMaterial> materials,
+                                             std::span<const Index> material_of) const {
+    return local.size() == material_of.size() ? local[particle] : materials[material_of[particle]];
+  }
   [[nodiscard]] std::span<const Spring> of(Index particle) const {
     return {springs.data() + first[particle], first[particle + 1] - first[particle]};
   }

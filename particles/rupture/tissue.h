@@ -23,8 +23,7 @@ struct Tissue {
 
   [[nodiscard]] bool is_awake(Index particle) const { return motion.awake[particle] != 0; }
   [[nodiscard]] const SoftMaterial& material(Index particle) const {
-    return graph.local.size() == motion.count() ? graph.local[particle]
-                                                : materials[motion.material_of[particle]];
+    return graph.material(particle, materials, motion.material_of);
   }
   /// Position of a point in the decomposition's pose.
   [[nodiscard]] Vec3d position(Index point) const { return set.positions()[point].cast<double>(); }

@@ -31,7 +31,7 @@ const std::map<std::string, Rooms> kRooms = {
      {{".",
        {"model", "detached", "operation", "pieces", "posed", "surface", "weights", "geometry"}},
       {"model", {"detached", "operation", "pieces", "posed", "surface", "weights", "geometry"}},
-      {"contact", {"model", "operation", "posed", "surface", "geometry"}},
+      {"contact", {"model", "operation", "pieces", "posed", "surface", "geometry"}},
       {"wound_mask", {"model", "surface", "geometry"}},
       {"detached", {"posed", "surface", "geometry"}},
       {"operation", {"filling", "path", "sheet", "posed", "surface", "geometry"}},
