@@ -11,6 +11,7 @@
 #include "bench/harness/json_object.h"
 #include "bench/particles/particles_decompose.h"
 #include "bench/particles/particles_errors.h"
+#include "bench/particles/particles_fields.h"
 #include "bench/particles/particles_membrane.h"
 #include "bench/particles/particles_oracle.h"
 #include "bench/particles/particles_repair.h"
@@ -21,7 +22,8 @@ namespace sunder::bench {
 namespace {
 
 constexpr const char* kHelp =
-    "bench_particles [--summary | --surfaces | --gaps | --oracle | --errors [FILE.svg]]\n"
+    "bench_particles [--summary | --surfaces | --gaps | --oracle | --fields | --errors "
+    "[FILE.svg]]\n"
     "\n"
     "The bunny with 1, 2, 3, 7 and 16 divisions per edge, on 64 bones. Medians, candidates in\n"
     "turns, one thread.\n"
@@ -47,8 +49,13 @@ constexpr const char* kHelp =
     "materials, against biquadratic finite elements on grids of their own; mesh and range refined\n"
     "together, over six orders of seeds; not among the tables by default.\n"
     "\n"
+    "Fields: such a slit in tissue that varies from place to place, against finite elements with "
+    "the\n"
+    "same fields, over six orders of seeds; not among the tables by default.\n"
+    "\n"
     "Prints tables. --surfaces prints the table of displaced surfaces alone, --gaps that of gaps,\n"
-    "--oracle that of the oracle, --errors that of errors, and draws it as SVG,\n"
+    "--oracle that of the oracle, --fields that of fields, --errors that of errors, and draws it "
+    "as SVG,\n"
     "--summary prints one JSON object instead.\n"
     "  bunny_decompose_ms      ParticleSet::create() of 3,485 points, range a tenth of the "
     "diagonal\n"
@@ -79,6 +86,14 @@ constexpr const char* kHelp =
     "                          width, with 200 particles\n"
     "  convergence_order       of the difference of the gap, from 0.2 m to 0.05 m\n"
     "  griffith_load_spread    of the load at which a slit runs on, over ranges and meshes\n"
+    "  field_gap_error         the largest difference of the gap, or of the load of a tip, of a "
+    "slit "
+    "in\n"
+    "                          varying tissue from finite elements, at ranges of 0.1 and 0.05 m\n"
+    "  perforation_follow_m    the greatest distance from a wavy perforation of the lips of a tear "
+    "that "
+    "runs\n"
+    "                          along it, range 0.1 m, cells of 0.01 m\n"
     "  vs_nanoflann            bunny_decompose_ms / nanoflann's time for its tree and clusters;\n"
     "                          null if it is not built\n";
 
@@ -201,6 +216,38 @@ void print_errors(const std::vector<ErrorFigures>& errors) {
   std::printf("displacement falls with the range to the power %.2f\n", order_of(errors));
 }
 
+void print_fields() {
+  std::printf(
+      "Slits of 0.4 m in varying tissue under 1.2 N/m, 160 x 160 cells, against finite elements "
+      "with "
+      "the same fields, percent;\nmeans over six orders of seeds. Load: at which a tip runs on.\n"
+      "%-38s range    width     gap    load\n",
+      "field");
+  for (const FieldFigures& of : measure_fields()) {
+    std::printf("%-38s %5.2f %8.2f %7.2f", of.name.c_str(), of.range, 100 * of.width, 100 * of.rms);
+    if (of.has_load)
+      std::printf(" %7.2f\n", 100 * of.load);
+    else
+      std::printf("       -\n");
+  }
+}
+
+/// The largest difference at the finer ranges.
+double field_gap_error() {
+  double largest = 0;
+  for (const FieldFigures& of : measure_fields())
+    if (of.range < 0.15)
+      largest = std::max({largest, std::abs(of.width), of.has_load ? std::abs(of.load) : 0.0});
+  return largest;
+}
+
+void print_perforation() {
+  const PerforationFigures of = measure_perforation();
+  std::printf(
+      "A slit that runs on along a wavy perforation: %.2g m from it at most, %.1f %% of it torn\n",
+      of.follow, 100 * of.length);
+}
+
 void print_oracle(const std::vector<OracleCase>& cases) {
   std::printf(
       "Slits of 0.4 m under 1.2 N/m against biquadratic finite elements, percent; mean over six "
@@ -290,6 +337,8 @@ void print_summary() {
   if (scene_of(kSmallest).character->name == "bunny") object.add("normal_p99_degrees", normals);
   object.add("tangent_dot_max", tangents);
   add_gaps(object);
+  object.add("field_gap_error", field_gap_error());
+  object.add("perforation_follow_m", measure_perforation().follow);
   object.add("vs_nanoflann", bunny.vs_nanoflann());
   object.end();
 }
@@ -312,6 +361,11 @@ int main(int argc, char** argv) {
   }
   if (argc == 2 && std::strcmp(argv[1], "--gaps") == 0) {
     sunder::bench::print_gaps();
+    return 0;
+  }
+  if (argc == 2 && std::strcmp(argv[1], "--fields") == 0) {
+    sunder::bench::print_fields();
+    sunder::bench::print_perforation();
     return 0;
   }
   if (argc == 2 && std::strcmp(argv[1], "--oracle") == 0) {

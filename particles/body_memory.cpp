@@ -14,7 +14,7 @@ std::size_t bytes_of(const Motion& motion) {
        {&motion.displacements, &motion.velocities, &motion.starts, &motion.forces,
         &motion.lip_forces, &motion.winds, &motion.quiet.from, &motion.quiet.pulls})
     bytes += bytes_of(*column);
-  return bytes;
+  return bytes + bytes_of(motion.plastic.strains) + bytes_of(motion.plastic.forces);
 }
 
 std::size_t bytes_of(const ShownMotion& shown) {
@@ -32,9 +32,9 @@ std::size_t bytes_of(const StepScratch& scratch) {
 
 std::size_t BodyState::memory_bytes() const {
   return sizeof(BodyState) + bytes_of(materials) + bytes_of(motion) + bytes_of(graph.first) +
-         bytes_of(graph.springs) + bytes_of(graph.masses) + bytes_of(graph.rates) +
-         rests.memory_bytes() + outer.of_pose.memory_bytes() + solver.memory_bytes() +
-         contact.memory_bytes() + bytes_of(shown) + bytes_of(scratch);
+         bytes_of(graph.local) + bytes_of(graph.springs) + bytes_of(graph.masses) +
+         bytes_of(graph.rates) + rests.memory_bytes() + outer.of_pose.memory_bytes() +
+         solver.memory_bytes() + contact.memory_bytes() + bytes_of(shown) + bytes_of(scratch);
 }
 
 }  // namespace sunder::particles

@@ -26,6 +26,7 @@ struct OuterForces {
   PoseTension of_pose;            ///< If Tension::adds_pose_strain.
   bool is_disturbed = false;      ///< Whether something changed since the last step.
   double time = 0;  ///< Seconds of all steps: the time at which the wind is asked for.
+  double step_seconds = 0;  ///< Of the last one.
 };
 
 /// The motion that renderers read.
@@ -100,6 +101,7 @@ struct BodyState {
     return {*set, graph, materials, rests, outer.gravity, sleep.tolerance()};
   }
   [[nodiscard]] bool has_stretch_limit() const;
+  [[nodiscard]] bool can_yield() const;
 };
 
 /// Gives functions of the module the data behind a body, and bodies of such data.

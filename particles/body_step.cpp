@@ -6,6 +6,7 @@
 #include "particles/internal/angular_frequency.h"
 #include "particles/internal/tolerances.h"
 #include "particles/motion/lip_tension.h"
+#include "particles/motion/plasticity.h"
 #include "particles/motion/stretch_limit.h"
 
 namespace sunder::particles {
@@ -13,6 +14,11 @@ namespace sunder::particles {
 bool BodyState::has_stretch_limit() const {
   return std::any_of(materials.begin(), materials.end(),
                      [](const SoftMaterial& material) { return material.stretch_limit > 0; });
+}
+
+bool BodyState::can_yield() const {
+  return std::any_of(materials.begin(), materials.end(),
+                     [](const SoftMaterial& material) { return material.yield_stretch > 0; });
 }
 
 bool BodyState::is_idle() const {
@@ -78,7 +84,7 @@ void BodyState::follow_pose(double seconds) {
 void BodyState::pull_lips(const TornModel& model, const ModelPose& pose, bool is_posed) {
   if (!outer.is_tension_stale && (!is_posed || set->lips().empty())) return;
   outer.of_pose.update(*set, model, poses.at(model, pose, rests.epoch()), materials,
-                       motion.material_of);
+                       motion.material_of, graph);
   particles::pull_lips(*set, outer.tension, outer.of_pose.added(), motion, scratch.sums,
                        scratch.changed);
   for (const Index p : scratch.changed)
@@ -123,7 +129,7 @@ void BodyState::integrate(double seconds) {
         step_spring(squared_frequency(material.return_frequency), material.damping_ratio, seconds));
   for (const Index p : scratch.active) {
     const SpringStep& step = steps[motion.material_of[p]];
-    const Vec3d force = motion.forces[p] + multiply(rests.turn(p), motion.lip_forces[p]);
+    const Vec3d force = motion.forces[p] + multiply(rests.turn(p), force_in_rest(motion, p));
     const Vec3d acceleration = outer.gravity + motion.winds[p] + force / graph.masses[p];
     const Vec3d place = motion.displacements[p], velocity = motion.velocities[p];
     motion.starts[p] = place;
@@ -188,6 +194,7 @@ void BodyState::step(const TornModel& model, const ModelPose& pose, bool is_pose
   find_active();
   if (!active.empty() && seconds > 0) {
     integrate(seconds);
+    if (can_yield()) flow({*set, graph, materials, rests}, active, motion);
     if (has_stretch_limit()) limit_stretch({graph, rests, active}, motion, scratch.changed);
   }
   contact.push_out({*set, model, pose, is_posed, graph, rests, poses, seconds}, motion);

@@ -7,6 +7,7 @@
 #include "particles/clusters/structure_of.h"
 #include "particles/motion/inherit.h"
 #include "particles/motion/lip_tension.h"
+#include "particles/motion/plasticity.h"
 
 namespace sunder::particles {
 namespace {
@@ -98,6 +99,7 @@ void BodyState::follow_particles() {
 void BodyState::connect_springs() {
   if (graph.is_stale) {
     connect(*set, materials, motion.material_of, graph);
+    push_by_strains(*set, graph, motion);
     outer.is_tension_stale |= outer.tension.adds_pose_strain;  // it depends on the materials
   }
   if (!outer.is_tension_stale || outer.tension.adds_pose_strain) return;

@@ -64,6 +64,9 @@ Status validate_material(const SoftMaterial& material) {
             1e6},
       Field{"toughness", material.toughness, 0.0, 1e12},
       Field{"flaw_length", material.flaw_length, 1e-9, 1e12},
+      Field{"yield_stretch", material.yield_stretch == 0 ? 2.0 : material.yield_stretch,
+            std::nextafter(1.0, 2.0), 1e6},
+      Field{"plastic_limit", material.plastic_limit, 0.0, 1e3},
   };
   for (const Field& field : fields) {
     if (!std::isfinite(field.value))

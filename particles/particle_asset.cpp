@@ -45,11 +45,13 @@ bool has_directions(const Character& character) {
 namespace particles {
 
 Result<std::unique_ptr<Structure>> decompose_model(const TornModel& model, const ModelPose& pose,
-                                                   const DecompositionOptions& options) {
+                                                   const DecompositionOptions& options,
+                                                   const AuthoredTissue& tissue) {
   if (!(options.range > 0) || !std::isfinite(options.range))
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "the range of particles is %g; it must be finite and above 0",
                            options.range);
+  if (Status status = validate_authored_tissue(tissue, model.source()); !status) return status;
   try {
     const auto begin = std::chrono::steady_clock::now();
     auto structure = std::make_unique<Structure>();
@@ -62,6 +64,10 @@ Result<std::unique_ptr<Structure>> decompose_model(const TornModel& model, const
         !status)
       return status;
     decompose(model, options, *structure);
+    if (!tissue.empty()) {
+      structure->authored.tissue = std::make_shared<const AuthoredTissue>(tissue);
+      structure->authored.follow(model, structure->points.vertices, 0);
+    }
     structure->report.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return structure;
@@ -81,11 +87,12 @@ ParticleAsset::ParticleAsset(std::shared_ptr<const particles::Structure> structu
 ParticleAsset::~ParticleAsset() = default;
 
 Result<std::shared_ptr<const ParticleAsset>> ParticleAsset::create(
-    const TornModel& model, const ModelPose& pose, const DecompositionOptions& options) {
+    const TornModel& model, const ModelPose& pose, const DecompositionOptions& options,
+    const AuthoredTissue& tissue) {
   if (model.newest_operation() != 0 || model.is_in_stroke())
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "an asset of particles needs a model that is not torn");
-  auto made = particles::decompose_model(model, pose, options);
+  auto made = particles::decompose_model(model, pose, options, tissue);
   if (!made) return made.error();
   try {
     const std::shared_ptr<particles::Structure> structure = std::move(*made);

@@ -40,8 +40,10 @@ ParticleSet::ParticleSet(ParticleSet&&) noexcept = default;
 ParticleSet& ParticleSet::operator=(ParticleSet&&) noexcept = default;
 
 Result<ParticleSet> ParticleSet::create(const TornModel& model, const ModelPose& pose,
-                                        const DecompositionOptions& options) {
-  Result<std::unique_ptr<Structure>> made = particles::decompose_model(model, pose, options);
+                                        const DecompositionOptions& options,
+                                        const AuthoredTissue& tissue) {
+  Result<std::unique_ptr<Structure>> made =
+      particles::decompose_model(model, pose, options, tissue);
   if (!made) return made.error();
   try {
     auto data = std::make_unique<particles::SetData>();

@@ -6,6 +6,7 @@
 #include "particles/body_state.h"
 #include "particles/clusters/tape.h"
 #include "particles/internal/recorded_limits.h"
+#include "particles/motion/plasticity.h"
 
 namespace sunder {
 namespace {
@@ -17,12 +18,14 @@ using particles::kMostRecordedSeconds;
 using particles::Motion;
 using particles::Tape;
 
-constexpr std::uint32_t kBodyVersion = 6;
+constexpr double kMostKeptStrain = 1e3;  // the largest limit of a material
+constexpr std::uint32_t kBodyVersion = 7;
 
 void describe(Tape& tape, SoftMaterial& of) {
-  for (double* value : {&of.return_frequency, &of.damping_ratio, &of.membrane_stiffness,
-                        &of.membrane_damping, &of.areal_density, &of.range, &of.stretch_limit,
-                        &of.strength, &of.toughness, &of.flaw_length})
+  for (double* value :
+       {&of.return_frequency, &of.damping_ratio, &of.membrane_stiffness, &of.membrane_damping,
+        &of.areal_density, &of.range, &of.stretch_limit, &of.strength, &of.toughness,
+        &of.flaw_length, &of.yield_stretch, &of.plastic_limit})
     tape(*value);
   if (!tape.is_reading()) return;
   if (const Status status = validate_material(of); !status)
@@ -71,7 +74,7 @@ struct Recorded {
   bool is_graph_stale = false;
   particles::RestMotion rests;
   Vec3d gravity = Vec3d::Zero();
-  double tension = 0, time = 0, still_seconds = 0;
+  double tension = 0, time = 0, step_seconds = 0, still_seconds = 0;
   bool adds_pose_strain = false, is_tension_stale = false, is_disturbed = false;
   particles::HoldList holds;
   struct OfContact {
@@ -91,6 +94,7 @@ Recorded recorded(const BodyState& state) {
           state.outer.gravity,
           state.outer.tension.newtons_per_metre,
           state.outer.time,
+          state.outer.step_seconds,
           state.sleep.still_seconds(),
           state.outer.tension.adds_pose_strain,
           state.outer.is_tension_stale,
@@ -116,6 +120,8 @@ void describe(Tape& tape, Motion& of) {
     tape.each(*flags, [&](std::uint8_t& flag) { tape.small(flag, 2); });
   tape.each(of.quiet.seconds,
             [&](double& seconds) { tape.within(seconds, 0, kMostRecordedSeconds); });
+  tape.each(of.plastic.strains, [&](Mat3d& strain) { tape.within(strain, kMostKeptStrain); });
+  of.plastic.forces.assign(of.plastic.strains.size(), Vec3d::Zero());
   of.awake_count = 0;
   for (const std::uint8_t awake : of.awake) of.awake_count += awake;
 }
@@ -130,7 +136,7 @@ void describe(Tape& tape, Recorded& of, const ParticleSet& set) {
   of.rests.describe(tape);
   tape.within(of.gravity, kMostRecordedForce);
   tape.within(of.tension, 0, kMostRecordedForce);
-  for (double* seconds : {&of.time, &of.still_seconds})
+  for (double* seconds : {&of.time, &of.step_seconds, &of.still_seconds})
     tape.within(*seconds, 0, kMostRecordedSeconds);
   tape(of.adds_pose_strain);
   tape(of.is_tension_stale);
@@ -154,7 +160,7 @@ bool has_count(const Recorded& of, std::size_t count) {
     has &= column->size() == count;
   for (const auto* flags : {&motion.awake, &motion.touched, &motion.bound, &motion.tired})
     has &= flags->size() == count;
-  return has;
+  return has && (motion.plastic.strains.empty() || motion.plastic.strains.size() == count);
 }
 
 /// Whether particles and holds are those of the set.
@@ -216,6 +222,7 @@ void set_state(Recorded&& of, BodyState& state) {
   state.outer.tension.newtons_per_metre = of.tension;
   state.outer.tension.adds_pose_strain = of.adds_pose_strain;
   state.outer.time = of.time;
+  state.outer.step_seconds = of.step_seconds;
   state.outer.has_blown = true;
   state.outer.is_tension_stale = of.is_tension_stale;
   state.outer.is_disturbed = of.is_disturbed;
@@ -256,9 +263,11 @@ Status SoftBody::restore(const StateArrays& arrays) {
     state_->reserve_for(static_cast<Index>(of.motion.displacements.size()));
     set_state(std::move(of), *state_);
     // The springs follow from the set and the materials.
-    if (!is_graph_stale)
+    if (!is_graph_stale) {
       particles::connect(*state_->set, state_->materials, state_->motion.material_of,
                          state_->graph);
+      particles::push_by_strains(*state_->set, state_->graph, state_->motion);
+    }
     return {};
   } catch (const std::bad_alloc&) {
     return out_of_memory();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <new>
+#include <tuple>
 
 #include "core/internal/out_of_memory.h"
 #include "particles/body_state.h"
@@ -71,6 +72,17 @@ Status check_hold(const Vec3d& target, const HoldOptions& options) {
   return check_vector("the target of a hold", target, particles::kMostRecordedLength);
 }
 
+Status check_self_contact(const SelfContact& of) {
+  for (const auto& [name, value, most] :
+       {std::tuple{"thickness", of.thickness, particles::kMostRecordedLength},
+        std::tuple{"friction", of.friction, particles::kMostRecordedForce}})
+    if (!(value >= 0 && value <= most))
+      return Status::failure(
+          std::isfinite(value) ? StatusCode::invalid_argument : StatusCode::non_finite_value, kNone,
+          "the %s of the self-contact is %g; it must be from 0 to %g", name, value, most);
+  return {};
+}
+
 Status check_material(const SoftMaterial& material, Index index) {
   const Status status = validate_material(material);
   if (status) return status;
@@ -103,6 +115,7 @@ Result<SoftBody> SoftBody::create(ParticleSet& particles, const ModelPose& pose,
   for (Index i = 0; i < materials.size(); ++i)
     if (Status status = check_material(materials[i], i); !status) return status;
   try {
+    if (Status status = check_self_contact(options.self_contact); !status) return status;
     auto state = std::make_unique<BodyState>();
     state->set = &particles;
     state->options = options;
@@ -339,6 +352,7 @@ Status SoftBody::step(const TornModel& model, const ModelPose& pose, double seco
                            "the time step is %g s; it must not be below 0", seconds);
   seconds = std::min(seconds, particles::kLongestStepSeconds);
   BodyState& state = *state_;
+  state.outer.step_seconds = seconds;
   if (state.is_idle()) {
     state.outer.time += seconds;
     state.rests.skip_step();
@@ -413,8 +427,10 @@ Vec3d SoftBody::point_displacement(std::uint32_t point) const {
 
 double SoftBody::mass(std::uint32_t particle) const {
   SUNDER_ASSERT(particle < particle_count());
-  return particles::mass_of(*state_->set, state_->materials[state_->motion.material_of[particle]],
-                            particle);
+  const SoftMaterial& material = state_->materials[state_->motion.material_of[particle]];
+  if (const particles::PointFactors* factors = particles::factors_at(*state_->set, particle))
+    return particles::mass_of(*state_->set, particles::with_factors(material, *factors), particle);
+  return particles::mass_of(*state_->set, material, particle);
 }
 std::uint32_t SoftBody::particle_count() const { return state_->motion.count(); }
 bool SoftBody::is_awake(std::uint32_t particle) const {

@@ -51,7 +51,7 @@ Status divide(const SoftTissue& soft, scene::AssetData& data) {
   // At rest lengths are metres; bind space may have any unit, such as that of quantised positions.
   const Result<ModelPose> rest = rest_pose(*data.character);
   if (!rest) return rest.error();
-  auto particles = ParticleAsset::create(*model, *rest, soft.decomposition);
+  auto particles = ParticleAsset::create(*model, *rest, soft.decomposition, soft.authored);
   if (!particles) return particles.error();
   data.particles = std::move(*particles);
   Result<scene::TissueAtRest> tissue = scene::make_tissue(soft, *model, data.particles);

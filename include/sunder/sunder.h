@@ -24,6 +24,7 @@
 #include <sunder/operation/operation.h>
 #include <sunder/operation/pose_spec.h>
 #include <sunder/operation/weight_options.h>
+#include <sunder/particles/authored_tissue.h>
 #include <sunder/particles/collider.h>
 #include <sunder/particles/force_tearing.h>
 #include <sunder/particles/material.h>

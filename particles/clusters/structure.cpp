@@ -24,6 +24,7 @@ std::unique_ptr<Structure> Structure::copy() const {
       points, [](auto& column, auto& of) { column.insert(column.end(), of.begin(), of.end()); });
   made->points.memberships = points.memberships;
   made->points.older_lips = points.older_lips;
+  made->authored = authored;
   made->particles = particles;
   made->members = members;
   made->lips = lips;

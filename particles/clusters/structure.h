@@ -6,6 +6,7 @@
 #include "particles/clusters/change.h"
 #include "particles/clusters/change_journal.h"
 #include "particles/clusters/decomposition_pose.h"
+#include "particles/clusters/point_factors.h"
 #include "particles/clusters/repair_scratch.h"
 #include "particles/clusters/source_border.h"
 #include "particles/clusters/surface_pose.h"
@@ -79,6 +80,7 @@ struct Structure {
   CharacterLink character;
   VertexPoints vertex_points;
   PointTable points;
+  AuthoredPoints authored;
   std::vector<Particle> particles;
   MemberLists members;
   std::vector<LipEdge> lips;

@@ -39,7 +39,10 @@ ParticleRest SurfacePose::rest(const Particle& particle) const {
 
 Vec3d SurfacePose::place(const TornModel& model, Index point) const {
   const VertexRef of = vertex_of(model, point);
-  if (of.vertex == kNone) return Vec3d::Zero();
+  return of.vertex == kNone ? Vec3d(Vec3d::Zero()) : place(model, of);
+}
+
+Vec3d SurfacePose::place(const TornModel& model, const VertexRef& of) const {
   Vec3d sum = Vec3d::Zero();
   MeshRestTerms(model, first_slots_, of.mesh)
       .for_each(

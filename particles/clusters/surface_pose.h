@@ -38,6 +38,8 @@ class SurfacePose {
   /// Position of a point in the pose: metres, model space. Zero for a point without a face.
   /// O(influences of the point).
   [[nodiscard]] Vec3d place(const TornModel& model, Index point) const;
+  /// The same for a vertex.
+  [[nodiscard]] Vec3d place(const TornModel& model, const VertexRef& of) const;
   /// Unit normal of the posed surface at a point that has a face; zero if the faces around it have
   /// no area.
   [[nodiscard]] Vec3d normal(const TornModel& model, Index point) const;

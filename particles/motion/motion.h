@@ -11,6 +11,21 @@ struct Quiet {
   std::vector<Vec3d> pulls;     ///< The remaining acceleration when the particle fell asleep.
 };
 
+/// What tissue keeps of its strain. One entry per particle in both arrays, or none if nothing was
+/// ever kept.
+struct Plastic {
+  /// The part of the displacement's gradient that pulls no more, along the axes of the
+  /// decomposition's pose.
+  std::vector<Mat3d> strains;
+  std::vector<Vec3d> forces;  ///< Of push_by_strains(), newtons; follows from the strains.
+
+  void resize(Index count) {
+    strains.reserve(count);
+    forces.resize(count, Vec3d::Zero());
+    strains.resize(count, Mat3d::Zero());
+  }
+};
+
 /// The motion of particles. One entry per particle in every array.
 struct Motion {
   std::vector<std::uint64_t> serials;
@@ -29,6 +44,7 @@ struct Motion {
   /// Asleep although it is not at rest alone, because it moved with bound ones in a still world.
   std::vector<std::uint8_t> tired;
   Quiet quiet;
+  Plastic plastic;
   Index awake_count = 0;
 
   [[nodiscard]] Index count() const { return static_cast<Index>(displacements.size()); }
@@ -41,6 +57,7 @@ struct Motion {
     for (auto* column : vector_columns()) column->reserve(count);
     for (auto* flags : {&awake, &touched, &bound, &tired}) flags->reserve(count);
     quiet.seconds.reserve(count);
+    if (!plastic.strains.empty()) plastic.resize(count);
 
     serials.resize(count, 0);
     material_of.resize(count, 0);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "core/internal/ordered.h"
@@ -9,16 +10,6 @@
 
 namespace sunder::particles {
 namespace {
-
-/// The direction across a plane, from moments in it: the longest column of their adjugate.
-Vec3d across(const Mat3d& moments) {
-  Vec3d longest = Vec3d::Zero();
-  for (int i = 0; i < 3; ++i) {
-    const Vec3d column = moments.col((i + 1) % 3).cross(moments.col((i + 2) % 3));
-    if (squared_norm(column) > squared_norm(longest)) longest = column;
-  }
-  return normalized(longest);
-}
 
 /// The square root of a symmetric positive semidefinite matrix.
 Eigen::Matrix2d root_of(const Eigen::Matrix2d& m) {
@@ -28,22 +19,46 @@ Eigen::Matrix2d root_of(const Eigen::Matrix2d& m) {
   return (m + root * Eigen::Matrix2d::Identity()) / sum;
 }
 
-}  // namespace
+/// Two directions of a plane, and the linear map of it that fits best how vectors in it change.
+struct Fit {
+  Eigen::Matrix<double, 3, 2> plane, gradient;
+};
 
-Mat3d strain_of(const Mat3d& moments, const Mat3d& moved) {
-  const Vec3d normal = across(moments);
-  if (normal.isZero(0)) return Mat3d::Zero();
+std::optional<Fit> fit_in_plane(const Mat3d& moments, const Mat3d& moved) {
+  const Vec3d normal = across_plane(moments);
+  if (normal.isZero(0)) return {};
   Eigen::Matrix<double, 3, 2> plane;
   plane.col(0) = normal.unitOrthogonal();
   plane.col(1) = normal.cross(plane.col(0));
   const Eigen::Matrix2d in_plane = multiply(plane.transpose(), multiply(moments, plane));
   const double size = trace(in_plane),
                determinant = in_plane(0, 0) * in_plane(1, 1) - in_plane(0, 1) * in_plane(1, 0);
-  if (!(determinant > kRowDeterminantFraction * size * size)) return Mat3d::Zero();
+  if (!(determinant > kRowDeterminantFraction * size * size)) return {};
   Eigen::Matrix2d adjugate;
   adjugate << in_plane(1, 1), -in_plane(0, 1), -in_plane(1, 0), in_plane(0, 0);
-  const Eigen::Matrix<double, 3, 2> gradient =
-      multiply(multiply(moved, plane), Eigen::Matrix2d(adjugate / determinant));
+  return Fit{plane, multiply(multiply(moved, plane), Eigen::Matrix2d(adjugate / determinant))};
+}
+
+}  // namespace
+
+Vec3d across_plane(const Mat3d& moments) {
+  Vec3d longest = Vec3d::Zero();
+  for (int i = 0; i < 3; ++i) {
+    const Vec3d column = moments.col((i + 1) % 3).cross(moments.col((i + 2) % 3));
+    if (squared_norm(column) > squared_norm(longest)) longest = column;
+  }
+  return normalized(longest);
+}
+
+Mat3d gradient_in_plane(const Mat3d& moments, const Mat3d& moved) {
+  const std::optional<Fit> fit = fit_in_plane(moments, moved);
+  return fit ? Mat3d(multiply(fit->gradient, fit->plane.transpose())) : Mat3d(Mat3d::Zero());
+}
+
+Mat3d strain_of(const Mat3d& moments, const Mat3d& moved) {
+  const std::optional<Fit> fit = fit_in_plane(moments, moved);
+  if (!fit) return Mat3d::Zero();
+  const auto& [plane, gradient] = *fit;
   const Eigen::Matrix2d strain =
       root_of(multiply(gradient.transpose(), gradient)) - Eigen::Matrix2d::Identity();
   return multiply(plane, multiply(strain, plane.transpose()));
@@ -58,7 +73,7 @@ void PoseTension::resize(Index particles) {
 
 void PoseTension::update(const ParticleSet& set, const TornModel& model, const SurfacePose& pose,
                          std::span<const SoftMaterial> materials,
-                         std::span<const Index> material_of) {
+                         std::span<const Index> material_of, const SpringGraph& graph) {
   std::fill(added_.begin(), added_.end(), Mat3d::Zero());
   std::fill(is_posed_.begin(), is_posed_.end(), std::uint8_t{0});
   std::fill(is_known_.begin(), is_known_.end(), std::uint8_t{0});
@@ -81,7 +96,8 @@ void PoseTension::update(const ParticleSet& set, const TornModel& model, const S
     const Mat3d strain = strain_of(moments, moved);
     const double rounding = kRoundedStrain * norm(seed_before(particle));
     if (squared_norm(strain) * trace(moments) <= rounding * rounding * couplings) return;
-    added_[particle] = materials[material_of[particle]].membrane_stiffness * strain;
+    const SoftMaterial& material = graph.material(particle, materials, material_of);
+    added_[particle] = material.membrane_stiffness * strain;
   };
   for (const LipEdge& lip : set.lips())
     for (const Index point : lip.points)

@@ -17,7 +17,8 @@ class PoseTension {
   /// neighbours x influences), no allocation.
   /// @param material_of  per particle.
   void update(const ParticleSet& set, const TornModel& model, const SurfacePose& pose,
-              std::span<const SoftMaterial> materials, std::span<const Index> material_of);
+              std::span<const SoftMaterial> materials, std::span<const Index> material_of,
+              const SpringGraph& graph);
 
   /// Per particle: S (U - I), N/m, with the material's membrane stiffness S and the stretch U of
   /// the tissue around the particle; symmetric, in the plane of the surface and the decomposition's
@@ -30,6 +31,14 @@ class PoseTension {
   std::vector<Vec3d> posed_seeds_;  ///< Where `is_posed_`.
   std::vector<std::uint8_t> is_posed_, is_known_;
 };
+
+/// The unit direction across a plane, from moments of vectors in it: the longest column of their
+/// adjugate. Zero if the vectors are all in a row.
+[[nodiscard]] Vec3d across_plane(const Mat3d& moments);
+
+/// The linear map of a plane that fits best how vectors in it change, in the plane's directions;
+/// zero across it. Parameters as those of strain_of().
+[[nodiscard]] Mat3d gradient_in_plane(const Mat3d& moments, const Mat3d& moved);
 
 /// How much tissue is stretched, U - I in its plane, from how vectors in it change.
 ///

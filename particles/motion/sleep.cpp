@@ -6,13 +6,14 @@
 #include "core/internal/ordered.h"
 #include "particles/internal/angular_frequency.h"
 #include "particles/internal/tolerances.h"
+#include "particles/motion/plasticity.h"
 
 namespace sunder::particles {
 Pull pull_on(Index p, const SpringGraph& graph, std::span<const SoftMaterial> materials,
              const RestMotion& rests, const Vec3d& gravity, const Motion& motion) {
   const SoftMaterial& material = materials[motion.material_of[p]];
   const double mass = graph.masses[p];
-  const Vec3d outer = motion.forces[p] + multiply(rests.turn(p), motion.lip_forces[p]);
+  const Vec3d outer = motion.forces[p] + multiply(rests.turn(p), force_in_rest(motion, p));
   Vec3d inner = Vec3d::Zero();
   double stiffness = 0;
   for (const Spring& spring : graph.of(p)) {

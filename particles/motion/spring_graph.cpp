@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/internal/ordered.h"
+#include "particles/clusters/structure_of.h"
 #include "particles/internal/angular_frequency.h"
 #include "particles/internal/tolerances.h"
 
@@ -63,6 +64,11 @@ Spring spring_between(const SoftMaterial& a, const SoftMaterial& b, double coupl
   return spring;
 }
 
+const PointFactors* factors_at(const ParticleSet& set, Index particle) {
+  const AuthoredPoints& authored = StructureOf::in(set).authored;
+  return authored.has_factors() ? &authored.of_points[set.seed(particle)] : nullptr;
+}
+
 double mass_of(const ParticleSet& set, const SoftMaterial& material, Index particle) {
   return material.areal_density * std::max(set.area(particle), least_area_of(set, particle));
 }
@@ -88,6 +94,13 @@ void connect(const ParticleSet& set, std::span<const SoftMaterial> materials,
   graph.springs.clear();
   graph.first.assign(1, 0);
   graph.masses.clear();
+  graph.local.clear();
+  for (Index p = 0; p < set.particle_count(); ++p)
+    if (const PointFactors* factors = factors_at(set, p))
+      graph.local.push_back(with_factors(materials[material_of[p]], *factors));
+  const auto material = [&](Index p) -> const SoftMaterial& {
+    return graph.material(p, materials, material_of);
+  };
   const auto seed_of = [&](Index p) { return set.positions()[set.seed(p)]; };
   const std::vector<std::array<Index, 2>> crowded = crowded_pairs(set);
   auto next = crowded.begin();
@@ -95,8 +108,7 @@ void connect(const ParticleSet& set, std::span<const SoftMaterial> materials,
     const auto add = [&](Index other, double coupling) {
       const double squared_distance =
           squared_norm(Vec3d((seed_of(other) - seed_of(p)).cast<double>()));
-      Spring spring = spring_between(materials[material_of[p]], materials[material_of[other]],
-                                     coupling, squared_distance);
+      Spring spring = spring_between(material(p), material(other), coupling, squared_distance);
       spring.other = other;
       graph.springs.push_back(spring);
     };
@@ -116,7 +128,7 @@ void connect(const ParticleSet& set, std::span<const SoftMaterial> materials,
     }
     while (is_next_below(kNone)) add_crowded();
     graph.first.push_back(static_cast<Index>(graph.springs.size()));
-    graph.masses.push_back(mass_of(set, materials[material_of[p]], p));
+    graph.masses.push_back(mass_of(set, material(p), p));
   }
   set_frequencies(graph);
   graph.is_stale = false;

@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "particles/clusters/point_factors.h"
+
 namespace sunder::particles {
 
 /// A spring from a particle to a neighbour. Both ends store it, with the same numbers, so that
@@ -25,18 +27,30 @@ struct SpringGraph {
   std::vector<Spring> springs;
   std::vector<double> masses;  ///< Per particle, kilograms.
   std::vector<double> rates;  ///< Per particle: sum of its springs' stiffnesses by its mass, 1/s^2.
-  bool is_stale = true;       ///< Whether particles or materials changed since connect().
+  /// Per particle, its material with the authored factors at its seed; empty without factors.
+  std::vector<SoftMaterial> local;
+  bool is_stale = true;  ///< Whether particles or materials changed since connect().
 
+  /// The material of a particle, with its factors.
+  [[nodiscard]] const SoftMaterial& material(Index particle,
+                                             std::span<const SoftMaterial> materials,
+                                             std::span<const Index> material_of) const {
+    return local.size() == material_of.size() ? local[particle] : materials[material_of[particle]];
+  }
   [[nodiscard]] std::span<const Spring> of(Index particle) const {
     return {springs.data() + first[particle], first[particle + 1] - first[particle]};
   }
 };
+
+/// The authored factors at the seed of a particle; null without any.
+[[nodiscard]] const PointFactors* factors_at(const ParticleSet& set, Index particle);
 
 /// The mass of a particle of a material, kilograms.
 [[nodiscard]] double mass_of(const ParticleSet& set, const SoftMaterial& material, Index particle);
 
 /// Connects all neighbours. If their materials differ, the spring has the harmonic means of
 /// stiffness and damping, as half of it is in each material, and the smaller stretch limit.
+/// Authored factors are those at the seeds.
 /// @param material_of  per particle. O(pairs of neighbours). @throws std::bad_alloc
 void connect(const ParticleSet& set, std::span<const SoftMaterial> materials,
              std::span<const Index> material_of, SpringGraph& graph);

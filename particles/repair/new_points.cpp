@@ -78,6 +78,7 @@ void append_points(StructureEdit& edit) {
     points.owners.push_back(kNone);
     points.lip_points.emplace_back();
   }
+  structure.authored.follow(edit.model(), points.vertices, edit.first_new_point());
   for (Index m = 0; m < character.meshes.size(); ++m) {
     std::vector<Index>& of_mesh = structure.vertex_points.of_mesh[m];
     for (auto v = static_cast<Index>(of_mesh.size()); v < character.meshes[m].vertex_count(); ++v)

@@ -79,13 +79,14 @@ LipEdge LipFromTip::edge_of(const Place& place) const {
 }
 
 Vec3d LipFromTip::pull_of(const Place& place) const {
+  const std::vector<PointFactors>& factors = StructureOf::in(tissue_.set).authored.of_points;
   const LipEdge lip = edge_of(place);
   Vec3d sum = Vec3d::Zero();
   for (const Index point : lip.points)
     if (const Index owner = tissue_.set.owners()[point]; owner != kNone)
       sum += 0.5 * multiply(tissue_.rests.turn(owner),
-                            pull_at(lip, tissue_.set.positions(), tissue_.tension,
-                                    tissue_.added_tension, owner));
+                            pull_at(lip, tissue_.set.positions(),
+                                    {tissue_.tension, tissue_.added_tension, factors}, owner));
   return sum;
 }
 

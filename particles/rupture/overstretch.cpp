@@ -6,6 +6,7 @@
 #include "core/internal/ordered.h"
 #include "particles/internal/tolerances.h"
 #include "particles/motion/pose_tension.h"
+#include "particles/rupture/short_tear.h"
 
 namespace sunder::particles {
 namespace {
@@ -66,7 +67,42 @@ double stretch_around(const Tissue& tissue, Index particle) {
                                                             : greatest_in_plane(strain));
 }
 
-std::vector<Overstretched> find_overstretched(const Tissue& tissue, double& greatest) {
+namespace {
+
+/// How far a perforation is from the seed of a particle whose cell it passes, at most, in ranges.
+constexpr double kPerforatedRanges = 0.6;
+
+/// The strain across a line that tissue bears, by that which it has.
+/// @return without a course if no line is near, or if it is stretched along the line.
+Overstretched along_perforation(const Tissue& tissue, Index particle, double stretch,
+                                double length) {
+  Vec3d along = Vec3d::Zero();
+  const Course course =
+      tissue.perforations.around(tissue.position(tissue.set.seed(particle)),
+                                 kPerforatedRanges * tissue.set.range(particle), length, along);
+  if (course.empty()) return {};
+  const Mat3d& turn = tissue.rests.turn(particle);
+  const Vec3d direction = multiply(turn, along);
+  Mat3d moments = Mat3d::Zero();
+  for (const ParticleNeighbour& of : tissue.set.neighbours(particle)) {
+    const Vec3d apart =
+        tissue.position(tissue.set.seed(of.particle)) - tissue.position(tissue.set.seed(particle));
+    moments += of.coupling * apart * apart.transpose();
+  }
+  const Vec3d normal = multiply(turn, across_plane(moments));
+  if (normal.isZero(0)) return {};
+  const Vec3d greatest = greatest_stretch_around(tissue, {particle, particle}, normal);
+  const double part = 1 - dot(greatest, direction) * dot(greatest, direction);
+  const double strain = (stretch - 1) * part;
+  const double borne = course.strength * (tissue.material(particle).strength - 1);
+  if (!(strain > borne)) return {};
+  return {particle, (1 + strain) / (1 + borne), course};
+}
+
+}  // namespace
+
+std::vector<Overstretched> find_overstretched(const Tissue& tissue, double length,
+                                              double& greatest) {
   std::vector<Overstretched> found;
   for (Index p = 0; p < tissue.motion.count(); ++p) {
     const double strength = tissue.material(p).strength;
@@ -74,6 +110,9 @@ std::vector<Overstretched> find_overstretched(const Tissue& tissue, double& grea
     const double stretch = stretch_around(tissue, p);
     greatest = std::max(greatest, stretch);
     if (stretch > strength) found.push_back({p, stretch / strength});
+    if (tissue.perforations.empty()) continue;
+    const Overstretched along = along_perforation(tissue, p, stretch, length);
+    if (!along.course.empty()) found.push_back(along);
   }
   std::stable_sort(found.begin(), found.end(),
                    [](const Overstretched& a, const Overstretched& b) { return a.over > b.over; });

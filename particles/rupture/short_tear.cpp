@@ -9,8 +9,36 @@
 namespace sunder::particles {
 namespace {
 
-/// The direction in which the tissue around some particles is stretched most, in the plane
-/// perpendicular to `normal`. It is that of the linear map that best describes the change of the
+/// Orients the direction of a tear away from the border edges that end at its tip.
+void run_forward(const TornModel& model, const SurfacePose& pose, Index tip, ShortTear& tear) {
+  const LipBorder border(model);
+  Vec3d forward = tear.from - 0.5 * (pose.place(model, border.next(tip)) +
+                                     pose.place(model, border.previous(tip)));
+  forward -= dot(forward, tear.normal) * tear.normal;
+  if (!(norm(forward) > 0)) return;
+  forward /= norm(forward);
+  if (dot(tear.direction, forward) < 0) tear.direction = -tear.direction;
+  if (dot(tear.direction, forward) < kLeastForwardCosine)
+    tear.direction = normalized(tear.direction + forward);
+}
+
+/// Along a perforation.
+ShortTear place_course(const Tissue& tissue, const SurfacePose& pose, const TearStart& start) {
+  ShortTear tear;
+  tear.path = tissue.perforations.posed(start.course, tissue.model, pose);
+  tear.length = start.course.length;
+  if (tear.path.size() < (start.is_tip ? 1u : 2u)) return tear;
+  tear.from = start.is_tip ? pose.place(tissue.model, start.point) : tear.path.front().first;
+  const Vec3d normal = start.is_tip ? pose.normal(tissue.model, start.point) : tear.path[0].second;
+  if (!start.is_tip) tear.path.erase(tear.path.begin());
+  tear.direction = normalized(Vec3d(tear.path.front().first - tear.from));
+  if (!tear.direction.isZero(0)) tear.normal = normal;
+  return tear;
+}
+
+}  // namespace
+
+/// It is that of the linear map that best describes the change of the
 /// vectors to their neighbours, so an uneven distribution of neighbours does not rotate it. It is
 /// the direction in the current tissue: at a tip, the lips move apart across it.
 Vec3d greatest_stretch_around(const Tissue& tissue, const std::array<Index, 2>& particles,
@@ -46,24 +74,11 @@ Vec3d greatest_stretch_around(const Tissue& tissue, const std::array<Index, 2>& 
   return plane * solver.eigenvectors().col(1);
 }
 
-/// Orients the direction of a tear away from the border edges that end at its tip.
-void run_forward(const TornModel& model, const SurfacePose& pose, Index tip, ShortTear& tear) {
-  const LipBorder border(model);
-  Vec3d forward = tear.from - 0.5 * (pose.place(model, border.next(tip)) +
-                                     pose.place(model, border.previous(tip)));
-  forward -= dot(forward, tear.normal) * tear.normal;
-  if (!(norm(forward) > 0)) return;
-  forward /= norm(forward);
-  if (dot(tear.direction, forward) < 0) tear.direction = -tear.direction;
-  if (dot(tear.direction, forward) < kLeastForwardCosine)
-    tear.direction = normalized(tear.direction + forward);
-}
-
-}  // namespace
-
 ShortTear place_tear(const Tissue& tissue, const SurfacePose& pose, const TearStart& start,
                      double length) {
+  if (!start.course.empty()) return place_course(tissue, pose, start);
   ShortTear tear;
+  tear.length = length;
   tear.normal = pose.normal(tissue.model, start.point);
   if (tear.normal.isZero(0)) return tear;
   tear.from = pose.place(tissue.model, start.point);

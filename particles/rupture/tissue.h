@@ -5,6 +5,7 @@
 #include "particles/clusters/influences.h"
 #include "particles/motion/motion.h"
 #include "particles/motion/rest_motion.h"
+#include "particles/rupture/perforations.h"
 
 namespace sunder::particles {
 
@@ -17,11 +18,12 @@ struct Tissue {
   const RestMotion& rests;
   const SpringGraph& graph;
   const Tension& tension;
-  std::span<const Mat3d> added_tension;  ///< Per particle, or empty; see add_lip_forces().
+  std::span<const Mat3d> added_tension;  ///< Per particle, or empty; see LipTension.
+  Perforations perforations = Perforations(set, model);
 
   [[nodiscard]] bool is_awake(Index particle) const { return motion.awake[particle] != 0; }
   [[nodiscard]] const SoftMaterial& material(Index particle) const {
-    return materials[motion.material_of[particle]];
+    return graph.material(particle, materials, motion.material_of);
   }
   /// Position of a point in the decomposition's pose.
   [[nodiscard]] Vec3d position(Index point) const { return set.positions()[point].cast<double>(); }

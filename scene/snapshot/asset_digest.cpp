@@ -51,13 +51,31 @@ void add(const DecompositionOptions& options, Digest& digest) {
   digest.add(options.seed);
 }
 
+void add(const AuthoredTissue& tissue, Digest& digest) {
+  for (const TissueFactors& of : tissue.meshes)
+    for (const auto* field :
+         {&of.strength, &of.toughness, &of.stiffness, &of.tension, &of.thickness})
+      digest.add(*field);
+  for (const Perforation& perforation : tissue.perforations) {
+    digest.add(perforation.strength);
+    for (const SurfacePlace& place : perforation.line) {
+      digest.add(place.mesh);
+      digest.add(place.triangle);
+      for (const double part : place.barycentric) digest.add(part);
+    }
+  }
+}
+
 }  // namespace
 
 std::uint64_t digest_of(const CharacterAsset& asset) {
   Digest digest;
   add(*asset.character(), digest);
   const CharacterAssetOptions& options = asset.options();
-  if (options.soft) add(options.soft->decomposition, digest);
+  if (options.soft) {
+    add(options.soft->decomposition, digest);
+    add(options.soft->authored, digest);
+  }
   if (options.coarser) digest.add(digest_of(*options.coarser));
   return digest.value();
 }

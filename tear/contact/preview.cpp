@@ -8,6 +8,7 @@
 #include "tear/model/model_access.h"
 #include "tear/operation/cut.h"
 #include "tear/operation/drill.h"
+#include "tear/pieces/describe_piece.h"
 
 namespace sunder {
 namespace {
@@ -80,7 +81,10 @@ class Rehearsal {
       tear::PosedSurface surface(state_.editor, state_.posed);
       approach(surface, preview);
       const EditLog::Mark begin = state_.begin_operation(true);
-      const auto look = [&](const TearReport&) { look_at_changes(begin, state_.editor, preview); };
+      const auto look = [&](const TearReport& done) {
+        look_at_changes(begin, state_.editor, preview);
+        for (const TornPiece& piece : done.pieces) preview.piece_areas.push_back(area_of(piece));
+      };
       const auto do_work = [&](tear::Outcome& outcome) -> Status {
         work(outcome);
         return {};
@@ -97,6 +101,11 @@ class Rehearsal {
   }
 
  private:
+  [[nodiscard]] double area_of(const TornPiece& piece) {
+    const Index face = state_.editor.origins.surface_triangle(piece.mesh, piece.triangle);
+    return tear::describe_piece(face, state_.editor, state_.posed).area_posed;
+  }
+
   State& state_;
   const WeightOptions& weights_;
   bool names_all_pieces_;

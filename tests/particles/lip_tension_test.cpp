@@ -20,7 +20,7 @@ struct Slit {
                                             std::span<const Mat3d> added = {}) const {
     std::array<Vec3d, 4> found;
     found.fill(Vec3d::Zero());
-    particles::add_lip_forces(lips, positions, owners, tension, added, found);
+    particles::add_lip_forces(lips, positions, owners, {tension, added}, found);
     return found;
   }
 };

@@ -14,6 +14,12 @@ struct ForceTearingOptions {
                         ///< (0, 2].
   /// The same in metres, > 0: for instance a speed times the time between calls.
   double metres = std::numeric_limits<double>::infinity();
+  /// Greatest speed, > 0, m/s. A tear of the length above is then made each time in which that
+  /// speed covers it, by the time of the body's steps; calls in between tear nothing.
+  double metres_per_second = std::numeric_limits<double>::infinity();
+  /// A tear that would cut off a piece of less area, in the pose, is not made; >= 0, m^2. Each tear
+  /// is then first tried and taken back, which costs as much again.
+  double least_piece_area = 0.0;
 };
 
 struct ForceTearingReport {
@@ -33,7 +39,9 @@ struct ForceTearingReport {
 /// A tip runs on if that releases at least the energy that the material takes: its toughness, or
 /// that by its strength and flaws (Griffith); only pulling its lips apart and shearing them count.
 /// Where no tip is near, a tear begins if the tissue is
-/// stretched beyond its strength. Loads hardly depend on the range and the mesh, see
+/// stretched beyond its strength. Along a perforation a tip runs on if that releases the energy
+/// that the line takes, at the angle at which it turns, and if nothing tears more easily; tissue
+/// next to the line tears there. Loads hardly depend on the range and the mesh, see
 /// docs/particles.md. Call it after SoftBody::step(). The tear is an operation in the history,
 /// which can be undone and replayed. Deterministic; one thread at a time per model.
 ///

@@ -40,6 +40,11 @@ struct SoftMaterial {
   /// For tissue with a strength and without a toughness: a slit of this length runs on at the
   /// strength, which takes pi S (strength - 1)^2 flaw_length / 4 per metre. Metres. [1e-9, 1e12].
   double flaw_length = 0.02;
+  /// Plasticity: stretch beyond which tissue keeps what it was stretched further; > 1, or 0: it
+  /// always returns. Measured without shrinking, as the root of the squared gradient of the
+  /// displacement, so turning counts too, as for the membrane.
+  double yield_stretch = 0.0;
+  double plastic_limit = 0.5;  ///< Greatest strain that it keeps. [0, 1e3].
 
   bool operator==(const SoftMaterial&) const = default;
 };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <sunder/particles/authored_tissue.h>
 #include <sunder/particles/material.h>
 #include <sunder/particles/state_arrays.h>
 #include <sunder/skinning/vertex_arrays.h>
@@ -80,7 +81,8 @@ class SUNDER_API ParticleAsset {
   /// @param model  of the character, not torn. Its instances have models of the same source.
   /// @return as ParticleSet::create(); invalid_argument for a torn model. O(points + memberships).
   static Result<std::shared_ptr<const ParticleAsset>> create(
-      const TornModel& model, const ModelPose& pose, const DecompositionOptions& options = {});
+      const TornModel& model, const ModelPose& pose, const DecompositionOptions& options = {},
+      const AuthoredTissue& tissue = {});
   ~ParticleAsset();
 
   [[nodiscard]] const DecompositionReport& report() const;
@@ -104,11 +106,14 @@ class SUNDER_API ParticleSet {
  public:
   ///
   /// @param pose  the pose in which distances along the surface are measured, e.g. the rest pose.
-  /// @return invalid_argument for the options; size_mismatch or non_finite_value for the pose;
+  /// @param tissue  of the model's source. Factors and perforations change no particle.
+  /// @return invalid_argument for the options; as validate_authored_tissue(); size_mismatch or
+  /// non_finite_value for the pose;
   ///         empty_input for a model without a face; limit_exceeded for more than 2^20 particles,
   ///         or if out of memory. O(points + memberships).
   static Result<ParticleSet> create(const TornModel& model, const ModelPose& pose,
-                                    const DecompositionOptions& options = {});
+                                    const DecompositionOptions& options = {},
+                                    const AuthoredTissue& tissue = {});
   /// The set of an instance that is not torn yet. It shares the asset, which it keeps, and copies
   /// it when it first follows a tear. The results have the same bits as those of a set of its own.
   /// @return empty_input for a null asset; invalid_argument for a model of another source, or a

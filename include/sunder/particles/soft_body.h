@@ -27,11 +27,19 @@ enum class Follow : std::uint8_t {
   lag,  ///< Model space: the particle has inertia, and its rest moves away from it.
 };
 
+/// Lips and flaps do not pass through one another, nor through the skin below. Costs nothing while
+/// no lip is open or pressed.
+struct SelfContact {
+  double thickness = 0.0;  ///< Of the tissue, metres, to 1e9; 0: nothing touches.
+  double friction = 0.0;   ///< Greatest ratio of tangential to normal force, [0, 1e12].
+};
+
 struct SoftBodyOptions {
   Follow follow = Follow::ride;
   /// Whether a body that sleeps under `ride` evaluates the pose in each step, so that velocity()
   /// and place() of its particles are those of the pose. Costs O(particles) per step.
   bool tracks_rest = false;
+  SelfContact self_contact = {};
 };
 
 /// An acceleration, m/s^2, at a position in model space and a time, in seconds of all steps. Values
@@ -92,7 +100,8 @@ class SUNDER_API SoftBody {
   /// @param pose       that of ParticleSet::create().
   /// @param materials  at least one.
   /// @return as ParticleSet::rest() for the pose; empty_input without material; the fault of a
-  ///         material, with its index; limit_exceeded if out of memory.
+  ///         material, with its index; non_finite_value or invalid_argument for the self-contact;
+  ///         limit_exceeded if out of memory.
   static Result<SoftBody> create(ParticleSet& particles, const ModelPose& pose,
                                  std::span<const SoftMaterial> materials,
                                  const SoftBodyOptions& options = {});

@@ -23,6 +23,7 @@ struct SoftTissue {
   DecompositionOptions decomposition;
   /// At least one; all particles start with the first.
   std::vector<SoftMaterial> materials = {SoftMaterial()};
+  AuthoredTissue authored;  ///< Fields and perforations; kept.
   SoftBodyOptions body;
   Tension tension;                ///< Pulls the lips of tears apart.
   Vec3d gravity = Vec3d::Zero();  ///< m/s^2, model space.

@@ -20,6 +20,7 @@ struct OperationPreview {
   /// If it would miss: the least distance between what the blade sweeps, or the axis of the bore,
   /// and the surface, metres; infinity for a cut.
   double miss_distance = 0.0;
+  std::vector<double> piece_areas;  ///< Of report.pieces, in the pose, square metres.
   // Those of the triangles that would change. Ascending, without repetition.
   std::vector<std::uint32_t> meshes;
   std::vector<std::uint32_t> materials;
@@ -29,7 +30,8 @@ struct OperationPreview {
 /// Performs an operation and takes it back: afterwards the model is as before, bit for bit, with
 /// its history, redo stack and change numbers. No other call may use the model meanwhile.
 /// @return as the operation's own call, with the same errors; capacity_exceeded where it would find
-///         no room. Costs what the operation costs. With a fixed capacity it uses none of it up; a
+///         no room. Costs what the operation costs, and O(triangles of
+///         its pieces). With a fixed capacity it uses none of it up; a
 ///         model that grows as needed keeps the memory as room for the operation, and further
 ///         previews of it need no more.
 [[nodiscard]] SUNDER_API Result<OperationPreview> preview_tear(const TornModel& model,

@@ -51,7 +51,8 @@ double width_at(const GapProfile& gap, double x) {
 }  // namespace
 
 std::vector<Vec3d> solve_membrane(const TornModel& model, std::span<const Vec3f> positions,
-                                  const SoftMaterial& material, std::span<const Vec3d> forces) {
+                                  const SoftMaterial& material, std::span<const Vec3d> forces,
+                                  const FactorsOfPlace& factors) {
   const tear::Surface& surface = model.surface();
   const auto count = static_cast<Eigen::Index>(positions.size());
   std::vector<Eigen::Triplet<double>> entries;
@@ -66,18 +67,21 @@ std::vector<Vec3d> solve_membrane(const TornModel& model, std::span<const Vec3f>
     for (std::size_t k = 0; k < 3; ++k) at[k] = positions[points[k]].cast<double>();
     const double twice = (at[1] - at[0]).cross(at[2] - at[0]).norm();
     if (!(twice > 1e-12)) continue;
+    FactorsAt factor;
+    if (factors) factor = factors(Vec3d((at[0] + at[1] + at[2]) / 3));
+    const double stiffness = material.membrane_stiffness * factor.stiffness * factor.thickness;
     for (std::size_t i = 0; i < 3; ++i) {
       const auto row = static_cast<Eigen::Index>(points[i]);
       has_face[points[i]] = true;
       entries.emplace_back(row, row,
-                           material.areal_density *
+                           material.areal_density * factor.thickness *
                                particles::squared_frequency(material.return_frequency) * twice / 6);
       for (std::size_t j = 0; j < 3; ++j) {
         // The gradient of a corner's function is its opposite edge, turned, over twice the area.
         const Eigen::Vector3d mine = at[(i + 2) % 3] - at[(i + 1) % 3],
                               other = at[(j + 2) % 3] - at[(j + 1) % 3];
         entries.emplace_back(row, static_cast<Eigen::Index>(points[j]),
-                             material.membrane_stiffness * mine.dot(other) / (2 * twice));
+                             stiffness * mine.dot(other) / (2 * twice));
       }
     }
   }
@@ -85,33 +89,76 @@ std::vector<Vec3d> solve_membrane(const TornModel& model, std::span<const Vec3f>
     if (!has_face[p]) entries.emplace_back(p, p, 1.0);
   Eigen::SparseMatrix<double> matrix(count, count);
   matrix.setFromTriplets(entries.begin(), entries.end());
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(matrix);
-  if (factors.info() != Eigen::Success) std::abort();
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(matrix);
+  if (solver.info() != Eigen::Success) std::abort();
   Eigen::MatrixXd right = Eigen::MatrixXd::Zero(count, 3);
   for (std::uint32_t p = 0; p < positions.size(); ++p)
     if (has_face[p]) right.row(p) = forces[p].transpose();
-  const Eigen::MatrixXd found = factors.solve(right);
+  const Eigen::MatrixXd found = solver.solve(right);
   std::vector<Vec3d> displacements;
   for (Eigen::Index p = 0; p < count; ++p) displacements.emplace_back(found.row(p).transpose());
   return displacements;
 }
 
-std::vector<Vec3d> lip_forces(const ParticleSet& set, double newtons_per_metre) {
+AuthoredTissue authored(const Character& character, const FactorsOfPlace& factors) {
+  AuthoredTissue tissue;
+  if (!factors) return tissue;
+  TissueFactors& of = tissue.meshes.emplace_back();
+  for (const Vec3f& place : character.meshes[0].positions) {
+    const FactorsAt at = factors(place.cast<double>());
+    of.stiffness.push_back(static_cast<float>(at.stiffness));
+    of.tension.push_back(static_cast<float>(at.tension));
+    of.thickness.push_back(static_cast<float>(at.thickness));
+  }
+  return tissue;
+}
+
+SurfacePlace place_on_sheet(const Character& character, const Vec3d& position) {
+  const Mesh& mesh = character.meshes[0];
+  SurfacePlace best;
+  double most = -1e30;
+  for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
+    std::array<Vec3d, 3> at;
+    for (std::size_t k = 0; k < 3; ++k) at[k] = mesh.positions[mesh.triangles[t][k]].cast<double>();
+    const auto area = [](const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+      return (b - a).cross(c - a).z();
+    };
+    const double whole = area(at[0], at[1], at[2]);
+    const std::array<double, 3> parts = {area(position, at[1], at[2]) / whole,
+                                         area(at[0], position, at[2]) / whole,
+                                         area(at[0], at[1], position) / whole};
+    const double least = std::min({parts[0], parts[1], parts[2]});
+    if (least <= most) continue;
+    most = least;
+    best = {0, t, parts};
+  }
+  double sum = 0;
+  for (double& part : best.barycentric) sum += part = std::max(part, 0.0);
+  for (double& part : best.barycentric) part /= sum;
+  return best;
+}
+
+std::vector<Vec3d> lip_forces(const ParticleSet& set, double newtons_per_metre,
+                              const FactorsOfPlace& factors) {
   std::vector<Vec3d> forces(set.point_count(), Vec3d::Zero());
-  for (const LipEdge& lip : set.lips())
+  const std::span<const Vec3f> at = set.positions();
+  for (const LipEdge& lip : set.lips()) {
+    const Vec3d middle = 0.5 * (at[lip.points[0]] + at[lip.points[1]]).cast<double>();
+    const double factor = factors ? factors(middle).tension : 1.0;
     for (const std::uint32_t point : lip.points)
-      forces[point] += 0.5 * newtons_per_metre * lip.inward.cast<double>();
+      forces[point] += 0.5 * factor * newtons_per_metre * lip.inward.cast<double>();
+  }
   return forces;
 }
 
 SlitSheet::SlitSheet(std::uint32_t cells, double half, double range, const SoftMaterial& material,
-                     double size, std::uint64_t seed_order)
-    : half_length(size * half) {
+                     double size, std::uint64_t seed_order, FactorsOfPlace fields)
+    : half_length(size * half), factors(std::move(fields)) {
   character = std::make_shared<const Character>(make_sheet(cells, static_cast<float>(size)));
   model = std::make_unique<TornModel>(checked(TornModel::create(character)));
   pose = checked(bind_pose(*character));
-  set = std::make_unique<ParticleSet>(
-      checked(ParticleSet::create(*model, pose, {size * range, false, seed_order})));
+  set = std::make_unique<ParticleSet>(checked(ParticleSet::create(
+      *model, pose, {size * range, false, seed_order}, authored(*character, factors))));
   body = std::make_unique<SoftBody>(checked(SoftBody::create(*set, pose, {&material, 1})));
   const auto blade = [&](double x) {
     const double y = 0.503;
@@ -144,8 +191,9 @@ GapProfile gap_of(const SlitSheet& sheet) {
 
 GapProfile reference_gap(const SlitSheet& sheet, double newtons_per_metre) {
   return gap_between(
-      sheet, solve_membrane(*sheet.model, sheet.set->positions(), sheet.body->materials()[0],
-                            lip_forces(*sheet.set, newtons_per_metre)));
+      sheet,
+      solve_membrane(*sheet.model, sheet.set->positions(), sheet.body->materials()[0],
+                     lip_forces(*sheet.set, newtons_per_metre, sheet.factors), sheet.factors));
 }
 
 double rms_difference(const GapProfile& found, const GapProfile& wanted) {

@@ -2,10 +2,25 @@
 
 #include <sunder/particles/soft_body.h>
 
+#include <functional>
 #include <memory>
 #include <vector>
 
 namespace sunder::test {
+
+/// The factors of tissue at a place, as those of TissueFactors; for an oracle that samples fields
+/// at places of its own.
+struct FactorsAt {
+  double stiffness = 1, tension = 1, thickness = 1;
+};
+using FactorsOfPlace = std::function<FactorsAt(const Vec3d&)>;
+
+/// These fields at the vertices of a character of one mesh, whose bind pose they are given in.
+AuthoredTissue authored(const Character& character, const FactorsOfPlace& factors);
+
+/// The place on the surface of a character of one flat mesh in the plane z = 0 that is nearest to a
+/// position, in its bind pose. O(triangles).
+SurfacePlace place_on_sheet(const Character& character, const Vec3d& position);
 
 /// The displacement of every point of a torn surface in balance: a membrane on an elastic
 /// foundation, by finite elements with one unknown per point, linear on each face (cotangent
@@ -15,12 +30,16 @@ namespace sunder::test {
 /// @param positions  per point.
 /// @param material   its membrane_stiffness, areal_density and return_frequency count.
 /// @param forces     per point, newtons.
+/// @param factors    of the material, taken at the centroid of each face; empty: all 1.
 /// @return metres; 0 at points without a face.
 std::vector<Vec3d> solve_membrane(const TornModel& model, std::span<const Vec3f> positions,
-                                  const SoftMaterial& material, std::span<const Vec3d> forces);
+                                  const SoftMaterial& material, std::span<const Vec3d> forces,
+                                  const FactorsOfPlace& factors = {});
 
 /// The forces of a tension at lips: half of each edge's at each of its ends.
-std::vector<Vec3d> lip_forces(const ParticleSet& set, double newtons_per_metre);
+/// @param factors  taken at the middle of each edge; empty: all 1.
+std::vector<Vec3d> lip_forces(const ParticleSet& set, double newtons_per_metre,
+                              const FactorsOfPlace& factors = {});
 
 /// Pulls the lips of a body apart until nothing moves any more.
 void pull_open(SoftBody& body, const TornModel& model, const ModelPose& pose,
@@ -35,14 +54,16 @@ struct SlitSheet {
   std::unique_ptr<SoftBody> body;
   std::vector<LipPair> lips;
   double half_length = 0;  ///< Metres.
+  FactorsOfPlace factors;
 
   /// @param cells  along each edge of the sheet.
   /// @param half_length  of the slit, metres.
   /// @param range  of the particles, metres.
   /// @param size  by which all lengths are multiplied.
   /// @param seed_order  of the particles' seeds.
+  /// @param factors  of the material; empty: all 1.
   SlitSheet(std::uint32_t cells, double half_length, double range, const SoftMaterial& material,
-            double size = 1, std::uint64_t seed_order = 0);
+            double size = 1, std::uint64_t seed_order = 0, FactorsOfPlace factors = {});
 
   void open(double newtons_per_metre) { pull_open(*body, *model, pose, newtons_per_metre); }
 };
