@@ -42,6 +42,11 @@ class Texels {
       });
   }
   [[nodiscard]] bool is_owned(std::size_t texel) const { return owners_[texel] != kNone; }
+  /// The triangle of a texel and the place in it; none if it is not owned.
+  [[nodiscard]] std::optional<SourcePlace> place_of(std::uint32_t column, std::uint32_t row) const;
+  /// Whether a triangle has no area in the texture, or shares a texel with others, clearly inside
+  /// of both; false if it is none of those that are painted.
+  [[nodiscard]] bool lacks_texels(std::uint32_t triangle) const;
   [[nodiscard]] const WoundMaskNotes& notes() const { return notes_; }
 
  private:
@@ -64,15 +69,21 @@ class Texels {
       }
     }
   }
+  /// Whether a triangle is one of those that are painted.
+  [[nodiscard]] bool is_wanted(std::uint32_t triangle) const {
+    return options_.submesh == kNone || submesh_of_[triangle] == options_.submesh;
+  }
   void find_borders(const Surface& surface, std::uint32_t mesh);
   void own_centres();
   void own_near_borders();
 
   WoundMaskOptions options_;
-  std::vector<Vec2f> uvs_;
+  std::vector<Vec2d> uvs_;  ///< In the texture.
   std::vector<Triangle> triangles_;
+  std::vector<std::uint32_t> submesh_of_;  ///< Per triangle.
   std::vector<bool> touches_border_;   ///< Per triangle: whether an edge is the border of a chart.
   std::vector<std::uint32_t> owners_;  ///< Per texel; kNone.
+  std::vector<bool> overlaps_;         ///< Per texel; none if no triangles overlap.
   WoundMaskNotes notes_;
 };
 
