@@ -39,6 +39,31 @@ std::array<double, 3> Texels::InTexture::nearest(Flat place) const {
   return {1 - b - c, b, c};
 }
 
+double Texels::InTexture::outside(Flat place) const {
+  if (depth_inside(place, *this) >= 0) return 0;
+  const Flat way = nearest_on_border(place, corners) - place;
+  return dot(way, way);
+}
+
+Flat Texels::nearest_tile(Flat place, const InTexture& at) const {
+  const double width = options_.width, height = options_.height;
+  // The tile around the middle of the triangle, and those beside.
+  const Flat middle = {
+      place.x + width * std::round(((at.low.x + at.high.x) / 2 - place.x) / width),
+      place.y + height * std::round(((at.low.y + at.high.y) / 2 - place.y) / height)};
+  Flat best = middle;
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = -1; i <= 1; ++i)
+    for (int j = -1; j <= 1; ++j) {
+      const Flat other = {middle.x + i * width, middle.y + j * height};
+      const double outside = at.outside(other);
+      if (!(outside < least)) continue;
+      least = outside;
+      best = other;
+    }
+  return best;
+}
+
 Texels::Texels(const Character& source, std::uint32_t mesh, const FlatFaces& faces,
                const WoundMaskOptions& options)
     : options_(options),
@@ -118,13 +143,7 @@ std::optional<SourcePlace> Texels::place_of(std::uint32_t column, std::uint32_t 
   const std::uint32_t triangle = owners_[std::size_t{row} * options_.width + column];
   if (triangle == kNone) return std::nullopt;
   const InTexture at = *in_texture(triangle);
-  Flat place = {static_cast<double>(column), static_cast<double>(row)};
-  // The triangle may be in another tile.
-  const auto move = [](double low, double high, double period, double& value) {
-    value += period * std::round((0.5 * (low + high) - value) / period);
-  };
-  move(at.low.x, at.high.x, options_.width, place.x);
-  move(at.low.y, at.high.y, options_.height, place.y);
+  const Flat place = nearest_tile({static_cast<double>(column), static_cast<double>(row)}, at);
   return SourcePlace{triangle, at.nearest(place)};
 }
 

@@ -154,6 +154,22 @@ TEST(WoundMask, bleeds_over_seams) {
   EXPECT_GT(bled, 0U);
 }
 
+TEST(WoundMask, borders_of_a_chart_that_fills_the_texture_do_not_wrap_into_it) {
+  const Character sheet = test::make_sheet(1);
+  TornModel model = make_model(sheet);
+  ASSERT_TRUE(
+      model.tear(*bind_pose(sheet), Stroke{test::down_at(0.2, 0.5), test::down_at(0.7, 0.5)}));
+  const WoundMask mask = make_mask(model, options_of(64, 0.15));
+  for (std::uint32_t y = 0; y < 64; ++y)
+    for (std::uint32_t x = 0; x < 64; ++x) {
+      const double u = (x + 0.5) / 64, v = (y + 0.5) / 64;
+      const double wanted = std::hypot(u - std::clamp(u, 0.2, 0.7), v - 0.5);
+      const float found = mask.distances()[std::size_t{64} * y + x];
+      ASSERT_NEAR(found, std::min(wanted, 0.15), 1e-5) << x << ' ' << y;
+      ASSERT_EQ(found, static_cast<float>(mask.distance_at(*mask.place_of(x, y))));
+    }
+}
+
 TEST(WoundMask, wraps_around_tiles) {
   const auto mask_of = [](float shift_u, float shift_v) {
     Character sheet = test::make_sheet(8);
