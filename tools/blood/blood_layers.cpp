@@ -159,15 +159,16 @@ bool paint(const WoundMask& mask, const Mesh& source, Image& image) {
       is_any = true;
       std::uint8_t* const pixel = &image.rgba[4 * texel];
       const auto& linear = linear_from_srgb();
-      const Vec3f color =
-          bloodied({linear[pixel[0]], linear[pixel[1]], linear[pixel[2]]},
-                   {static_cast<double>(distance), options.reach, 0, rest_place(source, *place)});
+      const Vec3f color = bloodied({linear[pixel[0]], linear[pixel[1]], linear[pixel[2]]},
+                                   {static_cast<double>(distance), options.reach, 0,
+                                    rest_place(source, *place) / options.reach});
       for (int i = 0; i < 3; ++i) pixel[i] = srgb_from_linear(color[i]);
     }
   return is_any;
 }
 
-/// Metres in bind space per metre in a pose, on the mean over a mesh; 0 if it has no area.
+}  // namespace
+
 double bind_scale(const Mesh& mesh, const DeformedMesh& posed) {
   double bound = 0, now = 0;
   const auto twice_area = [](const std::vector<Vec3f>& at, const Triangle& t) {
@@ -179,6 +180,8 @@ double bind_scale(const Mesh& mesh, const DeformedMesh& posed) {
   }
   return now > 0 ? std::sqrt(bound / now) : 0;
 }
+
+namespace {
 
 /// Lays blood on one mesh.
 class MeshBlood {
@@ -297,7 +300,7 @@ Status MeshBlood::lay_on_vertices(std::uint32_t submesh, const char* obstacle) {
     if (!(std::abs(distance) < reach_)) continue;
     if (tints_.empty()) tints_.assign(count, Vec3f::Ones());
     is_any = true;
-    tints_[v] = bloodied(Vec3f::Ones(), {distance, reach_, 0, rest_place(source_, place)});
+    tints_[v] = bloodied(Vec3f::Ones(), {distance, reach_, 0, rest_place(source_, place) / reach_});
   }
   if (is_any)
     layers_.notes.push_back(

@@ -47,6 +47,9 @@ struct BloodOptions {
 /// @param diagonal  of its surface in the pose, metres.
 [[nodiscard]] double blood_reach(double diagonal);
 
+/// Metres in bind space per metre in a pose, on the mean over a mesh; 0 if it has no area.
+[[nodiscard]] double bind_scale(const Mesh& mesh, const DeformedMesh& posed);
+
 /// Lays blood around the wounds of a model on copies of the textures of torn meshes; on the colours
 /// of their vertices where a submesh has no texture coordinates, shares texels between triangles
 /// that see a wound, or has an image that cannot be read or would be too large.

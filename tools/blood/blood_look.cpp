@@ -8,10 +8,10 @@ namespace sunder::tools {
 namespace {
 
 const Vec3f kFresh(0.26f, 0.008f, 0.009f), kClotted(0.085f, 0.003f, 0.004f);
-constexpr double kNarrowest = 0.3, kWidest = 1.0;  ///< Border of the blood, in reaches.
-constexpr double kSoftness = 0.26;                 ///< Of the border, in reaches.
-constexpr float kMostCover = 0.96f;                ///< The surface shows through a little.
-constexpr float kReddest = 0.5f;                   ///< Share of reddened skin at the lip.
+constexpr double kNarrowest = 0.25, kWidest = 1.0;  ///< Border of the blood, in reaches.
+constexpr double kSoftness = 0.5;                   ///< Of the border, as a share of its distance.
+constexpr double kMostCover = 0.97, kLeastCover = 0.5;  ///< At the lip, and at the reach.
+constexpr float kReddest = 0.5f;                        ///< Share of reddened skin at the lip.
 
 double at_lattice(std::int64_t x, std::int64_t y, std::int64_t z) {
   std::uint64_t h = static_cast<std::uint64_t>(x) * 0x9e3779b97f4a7c15u ^
@@ -54,9 +54,9 @@ double blood_cover(const BloodPlace& at) {
   double cover = 0;
   if (near < 1) {
     // Clouds are mostly near one half.
-    const double uneven = step_between(0.25, 0.75, clouds(at.rest / (0.9 * at.reach)));
-    const double border = kNarrowest + (kWidest - kNarrowest) * uneven;
-    cover = 1 - step_between(border - kSoftness, border, near);
+    const double uneven = step_between(0.25, 0.75, clouds(at.rest / 0.9));
+    const double border = kNarrowest + (kWidest - kNarrowest) * uneven * uneven;
+    cover = 1 - step_between((1 - kSoftness) * border, border, near);
   }
   return std::max(cover, std::clamp(at.flow, 0.0, 1.0));
 }
@@ -71,10 +71,14 @@ Vec3f bloodied(const Vec3f& color, const BloodPlace& at) {
     const Vec3f red = 0.35f * color + 0.25f * color.norm() * Vec3f(0.9f, 0.16f, 0.13f);
     result += share * (red - color);
   }
-  const double clots = step_between(0.3, 0.7, clouds(at.rest / (0.6 * at.reach)));
+  const double clots = step_between(0.3, 0.7, clouds(at.rest / 0.6));
   const auto dark = static_cast<float>(0.75 * clots * (1 - 0.6 * std::min(near, 1.0)));
   const Vec3f blood = kFresh + dark * (kClotted - kFresh);
-  return result + kMostCover * static_cast<float>(blood_cover(at)) * (blood - result);
+  // Blood is thinner farther away, and the surface shows through.
+  const auto thickness = static_cast<float>(
+      kLeastCover +
+      (kMostCover - kLeastCover) * std::max(1 - std::min(near, 1.0), std::min(at.flow, 1.0)));
+  return result + thickness * static_cast<float>(blood_cover(at)) * (blood - result);
 }
 
 }  // namespace sunder::tools

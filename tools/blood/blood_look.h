@@ -9,7 +9,7 @@ struct BloodPlace {
   double distance = 0;         ///< To the nearest lip along the skin, metres; either sign.
   double reach = 0;            ///< Distance at which the last of the blood ends, metres; > 0.
   double flow = 0;             ///< How much blood has run there: 0 to 1.
-  Vec3d rest = Vec3d::Zero();  ///< The place in bind space, which borders and clots depend on.
+  Vec3d rest = Vec3d::Zero();  ///< In bind space, in reaches: borders and clots depend on it.
 };
 
 /// How much of the surface is covered, 0 to 1: all of it at the lip, up to an uneven border.

@@ -171,8 +171,7 @@ void add_blood(CLI::App& verb, TearRequest& request) {
   constexpr NumberRange kReach = {.field = "the value", .least = 1e-6, .most = 1e6, .unit = " m"};
   const auto unused = std::make_shared<std::string>();
   verb.add_flag("--blood{size}", *unused,
-                "Write blood around wounds, on copies of the textures of torn meshes; "
-                "--blood=0.02: so many metres from lips, along the skin")
+                "Write blood around wounds into the textures; --blood=0.02: up to 2 cm from lips")
       ->each([unused, &request, kReach](const std::string& text) {
         request.blood = 0.0;
         if (text == "size" || text == "true") return;

@@ -125,6 +125,7 @@ void ModelLooks::add_mesh(const Mesh& mesh, const DeformedMesh& posed, const Fle
       const std::uint32_t vertex = triangle[i];
       drawn.corners[i] = posed.positions[vertex];
       drawn.normals[i] = posed.normals[vertex];
+      drawn.rest[i] = flesh.reaches * mesh.positions[vertex];
       const Vec3f at = posed.positions[vertex] / flesh.unit;
       drawn.uvs[i] = Vec2f::Zero();
       if (has_uvs)

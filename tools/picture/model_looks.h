@@ -35,6 +35,9 @@ class ModelLooks {
   /// @param material  as Submesh::material; white without texture if the file has none.
   [[nodiscard]] OfFile of_file(std::uint32_t material) const;
 
+  /// The colour of what has no material.
+  [[nodiscard]] const Vec4f& plain_color() const { return materials_[kPlain].factor; }
+
   /// A scene without triangles that has these materials; it must not outlive this object.
   [[nodiscard]] RenderScene begin_scene() const;
 
@@ -52,6 +55,7 @@ class ModelLooks {
     const std::vector<bool>* inside = nullptr;
     /// Per submesh of the source: what it is drawn with in place of its material; empty: none is.
     std::span<const Cover> covers = {};
+    float reaches = 1;  ///< BloodPlace::rest per metre in bind space.
   };
   /// Adds the surface of a mesh to a scene that began here.
   /// @param posed  of the mesh, with normals.
