@@ -91,6 +91,8 @@ struct TearRequest {
   bool count_topology = false;                  ///< Per operation, for the report.
   OpenLips open = OpenLips::no;
   FleshOption flesh;             ///< With `open`.
+  /// Blood on the textures so far from lips, metres; 0: as the size of the model suggests.
+  std::optional<double> blood;
   std::optional<Vec3d> facing;   ///< Of the character, for `aimed`; empty: as the rig tells.
   bool keep_going = false;       ///< Operations that fail are reported and left out.
   bool dry_run = false;          ///< Writes no files.

@@ -133,7 +133,8 @@ void check_same_character(const Character& character, const LoadedCharacter& loa
       refuse(StatusCode::invalid_argument, i,
              "save_glb: mesh %u: its skin differs from the source's", i);
   }
-  check_materials(character, count_of(loaded.source->json, "materials"), options.materials.size());
+  check_materials(character, count_of(loaded.source->json, "materials"),
+                  options.materials.size() + options.painted.size());
   if (const Status status = validate_character(character); !status) throw Refusal{status};
   check_skins_of_nodes(character, source, *loaded.source);
   check_morph_targets(character, source, *loaded.source);

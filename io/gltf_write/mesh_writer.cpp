@@ -7,6 +7,7 @@
 
 #include "io/gltf/accessors.h"
 #include "io/gltf/refusal.h"
+#include "io/gltf_write/appended_materials.h"
 
 namespace sunder::gltf {
 namespace {
@@ -54,6 +55,7 @@ void check_options(const SaveOptions& options, std::size_t mesh_count) {
            options.weights_of_mesh.size(), mesh_count);
   for (const WeightFormat format : options.weights_of_mesh) check_format(format);
   for (Index i = 0; i < options.materials.size(); ++i) check_material(options.materials[i], i);
+  for (Index i = 0; i < options.painted.size(); ++i) check_painted(options.painted[i], i);
 }
 
 InfluenceForm influence_form(const SaveOptions& options, std::uint32_t mesh,

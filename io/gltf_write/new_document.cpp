@@ -304,7 +304,7 @@ void check_character(const Character& character) {
 std::vector<std::byte> new_document(const Character& character, const SaveOptions& options,
                                     const SourceDocument* materials) {
   check_options(options, character.meshes.size());
-  if (!options.materials.empty() && materials == nullptr)
+  if ((!options.materials.empty() || !options.painted.empty()) && materials == nullptr)
     refuse(StatusCode::invalid_argument, kNone,
            "save_glb: materials are appended to those of a source document; this has none");
   check_character(character);

@@ -23,6 +23,8 @@ class Texels {
 
     /// Barycentric coordinates of a place, or of the nearest one in the triangle.
     [[nodiscard]] std::array<double, 3> nearest(Flat place) const;
+    /// The squared distance of a place from the triangle; 0 inside.
+    [[nodiscard]] double outside(Flat place) const;
   };
 
   /// @param mesh  its index, which has the UV set. The options are valid.
@@ -34,14 +36,23 @@ class Texels {
   /// Calls visit(column, row, barycentric coordinates) for all texels of a triangle.
   template <class Visit>
   void for_each_of(std::uint32_t triangle, Visit visit) const {
-    if (const std::optional<InTexture> at = in_texture(triangle))
-      for_each_near(*at, touches_border_[triangle] ? options_.dilation : 0, [&](Flat p, auto i) {
-        if (owners_[i] == triangle)
-          visit(static_cast<std::uint32_t>(i % options_.width),
-                static_cast<std::uint32_t>(i / options_.width), at->nearest(p));
-      });
+    const std::optional<InTexture> at = in_texture(triangle);
+    if (!at) return;
+    const std::uint32_t margin = touches_border_[triangle] ? options_.dilation : 0;
+    const bool may_come_twice = at->high.x - at->low.x + 2 * margin + 1 >= options_.width ||
+                                at->high.y - at->low.y + 2 * margin + 1 >= options_.height;
+    for_each_near(*at, margin, [&](Flat p, auto i) {
+      if (owners_[i] == triangle && !(may_come_twice && nearest_tile(p, *at) != p))
+        visit(static_cast<std::uint32_t>(i % options_.width),
+              static_cast<std::uint32_t>(i / options_.width), at->nearest(p));
+    });
   }
   [[nodiscard]] bool is_owned(std::size_t texel) const { return owners_[texel] != kNone; }
+  /// The triangle of a texel and the place in it; none if it is not owned.
+  [[nodiscard]] std::optional<SourcePlace> place_of(std::uint32_t column, std::uint32_t row) const;
+  /// Whether a triangle has no area in the texture, or shares a texel with others, clearly inside
+  /// of both; false if it is none of those that are painted.
+  [[nodiscard]] bool lacks_texels(std::uint32_t triangle) const;
   [[nodiscard]] const WoundMaskNotes& notes() const { return notes_; }
 
  private:
@@ -64,15 +75,23 @@ class Texels {
       }
     }
   }
+  /// Whether a triangle is one of those that are painted.
+  [[nodiscard]] bool is_wanted(std::uint32_t triangle) const {
+    return options_.submesh == kNone || submesh_of_[triangle] == options_.submesh;
+  }
+  /// The place of a texel in the tile where it is nearest to a triangle; the first of several.
+  [[nodiscard]] Flat nearest_tile(Flat place, const InTexture& at) const;
   void find_borders(const Surface& surface, std::uint32_t mesh);
   void own_centres();
   void own_near_borders();
 
   WoundMaskOptions options_;
-  std::vector<Vec2f> uvs_;
+  std::vector<Vec2d> uvs_;  ///< In the texture.
   std::vector<Triangle> triangles_;
+  std::vector<std::uint32_t> submesh_of_;  ///< Per triangle.
   std::vector<bool> touches_border_;   ///< Per triangle: whether an edge is the border of a chart.
   std::vector<std::uint32_t> owners_;  ///< Per texel; kNone.
+  std::vector<bool> overlaps_;         ///< Per texel; none if no triangles overlap.
   WoundMaskNotes notes_;
 };
 

@@ -26,7 +26,14 @@ Status check_options(const TornModel& model, std::uint32_t mesh, const WoundMask
   if (mesh >= source.meshes.size())
     return Status::failure(StatusCode::index_out_of_range, mesh, "mesh %u of %zu", mesh,
                            source.meshes.size());
-  if (options.uv_set >= source.meshes[mesh].uv_sets.size())
+  if (options.submesh != kNone && options.submesh >= source.meshes[mesh].submeshes.size())
+    return Status::failure(StatusCode::index_out_of_range, options.submesh,
+                           "submesh %u of mesh %u, which has %zu", options.submesh, mesh,
+                           source.meshes[mesh].submeshes.size());
+  if (!options.texture_from_uv.allFinite())
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "the texture of a wound mask is not at a finite place");
+  if (options.uv_set != kNone && options.uv_set >= source.meshes[mesh].uv_sets.size())
     return Status::failure(StatusCode::not_found, options.uv_set,
                            "mesh %u has no texture coordinates %u: it has %zu sets", mesh,
                            options.uv_set, source.meshes[mesh].uv_sets.size());
@@ -79,7 +86,8 @@ struct WoundMask::State {
         finder(faces.surface),
         spread(faces, options.reach),
         beams(static_cast<Index>(faces.shapes.size())),
-        distances(std::size_t{options.width} * options.height, static_cast<float>(options.reach)) {}
+        distances(options.uv_set == kNone ? 0 : std::size_t{options.width} * options.height,
+                  static_cast<float>(options.reach)) {}
 
   /// Finds the lips of source triangles, ascending, again.
   /// @param seen  what sees lips that came or went is appended.
@@ -87,6 +95,7 @@ struct WoundMask::State {
   void paint(Index face, Bounds& bounds);
   [[nodiscard]] Result<TexelRectangle> update(const TornModel& model, const ChangeRecord& change);
   [[nodiscard]] bool has_triangles_of(const Character& other) const;
+  [[nodiscard]] double distance_at(Index face, const std::array<double, 3>& place) const;
 
   WoundMaskOptions options;
   std::uint32_t mesh = 0;
@@ -142,6 +151,14 @@ void WoundMask::State::paint(Index face, Bounds& bounds) {
             static_cast<float>(is_removed ? -least : least);
         bounds.add(column, row);
       });
+}
+
+double WoundMask::State::distance_at(Index face, const std::array<double, 3>& place) const {
+  const tear::Flat at = faces.place(face, place);
+  double least = options.reach;
+  beams.for_each_in(face, [&](const Beam& beam) { least = std::min(least, beam.distance(at)); });
+  const auto parts = torn.find(face);
+  return parts != torn.end() && parts->second.is_removed(place) ? -least : least;
 }
 
 bool WoundMask::State::has_triangles_of(const Character& other) const {
@@ -224,6 +241,25 @@ Result<TexelRectangle> WoundMask::update(const TornModel& model, const ChangeRec
 std::span<const float> WoundMask::distances() const { return state_->distances; }
 bool WoundMask::is_painted(std::uint32_t column, std::uint32_t row) const {
   return state_->texels.is_owned(std::size_t{row} * state_->options.width + column);
+}
+std::optional<SourcePlace> WoundMask::place_of(std::uint32_t column, std::uint32_t row) const {
+  return state_->texels.place_of(column, row);
+}
+bool WoundMask::has_own_texels() const {
+  const Surface& surface = state_->faces.surface;
+  const Index first = surface.first_triangle[state_->mesh],
+              end = surface.first_triangle[state_->mesh + 1];
+  for (Index face = first; face < end; ++face) {
+    bool sees_lip = false;
+    state_->beams.for_each_in(face, [&](const Beam&) { sees_lip = true; });
+    if (sees_lip && state_->faces.has_area(face) && state_->texels.lacks_texels(face - first))
+      return false;
+  }
+  return true;
+}
+double WoundMask::distance_at(const SourcePlace& place) const {
+  return state_->distance_at(state_->faces.surface.first_triangle[state_->mesh] + place.triangle,
+                             place.barycentric);
 }
 const WoundMaskOptions& WoundMask::options() const { return state_->options; }
 const WoundMaskNotes& WoundMask::notes() const { return state_->texels.notes(); }

@@ -15,9 +15,9 @@
 #include "tools/render/holed_triangles.h"
 #include "tools/render/image.h"
 #include "tools/render/lighting.h"
+#include "tools/render/lip_blood.h"
 #include "tools/render/palette.h"
 #include "tools/render/png_file.h"
-#include "tools/render/redness.h"
 #include "tools/render/texture.h"
 #include "tools/render/trace.h"
 #include "tools/render/triangle_tree.h"
@@ -437,15 +437,15 @@ TEST(Trace, surfaces_thinner_than_a_pixel_are_not_broken) {
   }
 }
 
-/// Cut into small pieces, a lip reddens the same places.
-TEST(Redness, long_lips_redden_what_their_pieces_redden) {
+/// Cut into small pieces, a lip bleeds on the same places.
+TEST(LipBlood, long_lips_bleed_where_their_pieces_bleed) {
   test::Random random(7);
   const auto place = [&random] {
     return Vec3f(static_cast<float>(random.uniform(-1, 1)),
                  static_cast<float>(random.uniform(-1, 1)),
                  static_cast<float>(random.uniform(-1, 1)));
   };
-  std::vector<Redness::Segment> lips, pieces;
+  std::vector<LipBlood::Segment> lips, pieces;
   constexpr int kPieces = 200;
   for (int i = 0; i < 5; ++i) {
     lips.push_back({place(), place()});
@@ -455,15 +455,15 @@ TEST(Redness, long_lips_redden_what_their_pieces_redden) {
                         lips.back()[0] + static_cast<float>(k + 1) * along});
   }
   constexpr float kReach = 0.02f;
-  const Redness of_lips(lips, kReach), of_pieces(pieces, kReach);
+  const LipBlood of_lips(lips, kReach), of_pieces(pieces, kReach);
   const Vec3f skin(0.8f, 0.6f, 0.5f);
   int red = 0;
   for (int i = 0; i < 5000; ++i) {
-    const Redness::Segment& near = lips[static_cast<std::size_t>(i) % lips.size()];
+    const LipBlood::Segment& near = lips[static_cast<std::size_t>(i) % lips.size()];
     const Vec3f at = near[0] + static_cast<float>(random.uniform(0, 1)) * (near[1] - near[0]) +
-                     kReach * place();  // Within 1.8 reaches.
-    EXPECT_LT((of_lips.reddened(skin, at) - of_pieces.reddened(skin, at)).norm(), 1e-3f);
-    red += of_lips.reddened(skin, at) != skin ? 1 : 0;
+                     0.5f * kReach * place();  // Within 0.9 reaches.
+    EXPECT_LT((of_lips.bloodied(skin, at, at) - of_pieces.bloodied(skin, at, at)).norm(), 1e-3f);
+    red += of_lips.bloodied(skin, at, at) != skin ? 1 : 0;
   }
   EXPECT_EQ(red, 5000);
 }

@@ -154,6 +154,22 @@ TEST(WoundMask, bleeds_over_seams) {
   EXPECT_GT(bled, 0U);
 }
 
+TEST(WoundMask, borders_of_a_chart_that_fills_the_texture_do_not_wrap_into_it) {
+  const Character sheet = test::make_sheet(1);
+  TornModel model = make_model(sheet);
+  ASSERT_TRUE(
+      model.tear(*bind_pose(sheet), Stroke{test::down_at(0.2, 0.5), test::down_at(0.7, 0.5)}));
+  const WoundMask mask = make_mask(model, options_of(64, 0.15));
+  for (std::uint32_t y = 0; y < 64; ++y)
+    for (std::uint32_t x = 0; x < 64; ++x) {
+      const double u = (x + 0.5) / 64, v = (y + 0.5) / 64;
+      const double wanted = std::hypot(u - std::clamp(u, 0.2, 0.7), v - 0.5);
+      const float found = mask.distances()[std::size_t{64} * y + x];
+      ASSERT_NEAR(found, std::min(wanted, 0.15), 1e-5) << x << ' ' << y;
+      ASSERT_EQ(found, static_cast<float>(mask.distance_at(*mask.place_of(x, y))));
+    }
+}
+
 TEST(WoundMask, wraps_around_tiles) {
   const auto mask_of = [](float shift_u, float shift_v) {
     Character sheet = test::make_sheet(8);
@@ -171,6 +187,76 @@ TEST(WoundMask, wraps_around_tiles) {
     EXPECT_NEAR(plain[i], tile[i], 1e-6f);
     EXPECT_NEAR(plain[i], half[64 * (i / 64) + (i + 32) % 64], 1e-6f);
   }
+}
+
+TEST(WoundMask, tells_the_place_of_each_texel) {
+  Random random(5);
+  const Character tube = make_atlas_tube(8, 8);
+  TornModel model = make_model(tube);
+  for (int i = 0; i < 3; ++i)
+    ASSERT_TRUE(test::play(model, test::random_tear(model, random, i == 1)));
+  WoundMaskOptions options = options_of(96, 0.4);
+  // Another tile, and half the texture.
+  options.texture_from_uv << 0.5, 0, 3.25, 0, 0.5, -2.25;
+  const WoundMask mask = make_mask(model, options);
+  options.uv_set = kNone;
+  const WoundMask without = make_mask(model, options);
+  EXPECT_TRUE(without.distances().empty());
+  std::size_t near_lips = 0;
+  for (std::uint32_t y = 0; y < 96; ++y)
+    for (std::uint32_t x = 0; x < 96; ++x) {
+      const std::optional<SourcePlace> place = mask.place_of(x, y);
+      ASSERT_EQ(place.has_value(), mask.is_painted(x, y));
+      if (!place) continue;
+      const float distance = mask.distances()[std::size_t{96} * y + x];
+      near_lips += distance < 0.4f ? 1 : 0;
+      EXPECT_EQ(static_cast<float>(mask.distance_at(*place)), distance);
+      EXPECT_EQ(static_cast<float>(without.distance_at(*place)), distance);
+    }
+  EXPECT_GT(near_lips, 0U);
+}
+
+TEST(WoundMask, paints_one_submesh_of_several_with_textures_of_their_own) {
+  // The two halves of a sheet in the same place of the texture.
+  Character sheet = test::make_sheet(8);
+  Mesh& mesh = sheet.meshes[0];
+  mesh.submeshes.resize(2);
+  for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
+    float left = 1;
+    for (const std::uint32_t v : mesh.triangles[t]) left = std::min(left, mesh.positions[v].x());
+    mesh.triangle_submesh[t] = left < 0.49f ? 0 : 1;
+  }
+  for (Vec2f& uv : mesh.uv_sets[0]) uv.x() *= 2;
+  TornModel model = make_model(sheet);
+  ASSERT_TRUE(
+      model.tear(*bind_pose(sheet), Stroke{test::down_at(0.1, 0.5), test::down_at(0.4, 0.5)}));
+  WoundMaskOptions options = options_of(32, 0.05);
+  EXPECT_FALSE(make_mask(model, options).has_own_texels());
+  for (const std::uint32_t submesh : {0U, 1U}) {
+    options.submesh = submesh;
+    const WoundMask mask = make_mask(model, options);
+    EXPECT_EQ(mask.notes().overlapping_texels, 0U);
+    EXPECT_TRUE(mask.has_own_texels());
+    EXPECT_EQ(std::ranges::any_of(mask.distances(), [](float d) { return d < 0.05f; }),
+              submesh == 0);
+  }
+  options.submesh = 2;
+  EXPECT_EQ(WoundMask::create(model, 0, options).error().code(), StatusCode::index_out_of_range);
+}
+
+TEST(WoundMask, knows_whether_the_wound_itself_is_in_charts_that_overlap) {
+  const auto is_shared = [](double height) {
+    Character sheet = test::make_sheet(8);  // Its upper half is mirrored onto itself.
+    for (Vec2f& uv : sheet.meshes[0].uv_sets[0])
+      if (uv.y() > 0.5f) uv.x() = std::abs(uv.x() - 0.5f);
+    TornModel model = make_model(sheet);
+    EXPECT_TRUE(model.tear(*bind_pose(sheet),
+                           Stroke{test::down_at(0.1, height), test::down_at(0.4, height)}));
+    const WoundMask mask = make_mask(model, options_of(64, 0.02));
+    EXPECT_GT(mask.notes().overlapping_texels, 0U);
+    return !mask.has_own_texels();
+  };
+  EXPECT_NE(is_shared(0.1), is_shared(0.9));
 }
 
 TEST(WoundMask, notes_charts_that_overlap_or_repeat) {
@@ -207,6 +293,8 @@ TEST(WoundMask, refuses_bad_options) {
     (bad = good).dilation = dilation;
     EXPECT_EQ(code_of(0, bad), StatusCode::invalid_argument);
   }
+  (bad = good).texture_from_uv(0, 2) = std::nan("");
+  EXPECT_EQ(code_of(0, bad), StatusCode::invalid_argument);
   for (const double reach : {0.0, -1.0, std::nan(""), 1e300}) {
     (bad = good).reach = reach;
     EXPECT_EQ(code_of(0, bad), StatusCode::invalid_argument);

@@ -7,6 +7,7 @@
 #include "core/operation/internal/names.h"
 #include "tools/command_line/number_option.h"
 #include "tools/command_line/options.h"
+#include "tools/model/model_output.h"
 #include "tools/written_weights/written_influences.h"
 
 namespace sunder::tools {
@@ -165,6 +166,31 @@ void add_open(CLI::App& verb, TearRequest& request) {
   });
 }
 
+/// As add_open(): its value is after "=".
+void add_blood(CLI::App& verb, TearRequest& request) {
+  constexpr NumberRange kReach = {.field = "the value", .least = 1e-6, .most = 1e6, .unit = " m"};
+  const auto unused = std::make_shared<std::string>();
+  verb.add_flag("--blood{size}", *unused,
+                "Write blood around wounds into the textures; --blood=0.02: up to 2 cm from lips")
+      ->each([unused, &request, kReach](const std::string& text) {
+        request.blood = 0.0;
+        if (text == "size" || text == "true") return;
+        const std::optional<double> value = quantity_in(text, Quantity::length);
+        if (!value)
+          throw CLI::ValidationError("--blood", "'" + text + "' is no number; expected one " +
+                                                    kReach.text() + units_of(Quantity::length));
+        check_value("--blood", kReach, *value);
+        request.blood = *value;
+      });
+}
+
+/// @throws CLI::ValidationError
+void check_output(CLI::App& verb, const TearRequest& request) {
+  check_output_format(verb, *request.output);
+  if (request.blood && is_usd(*request.output))
+    throw CLI::ValidationError("--blood", "needs a GLB as --output");
+}
+
 }  // namespace
 
 CLI::App* add_tear(CLI::App& app, TearRequest& request) {
@@ -191,6 +217,7 @@ CLI::App* add_tear(CLI::App& app, TearRequest& request) {
   add_maximum_error(*verb, request.maximum_error, &request.robot_limits);
   add_report_options(*verb, request);
   add_open(*verb, request);
+  add_blood(*verb, request);
   verb->add_option("--picture", request.picture,
                    "File for a picture (PNG) of the torn model, with lips and pieces pulled apart")
       ->type_name("FILE");
@@ -211,7 +238,7 @@ CLI::App* add_tear(CLI::App& app, TearRequest& request) {
     if (request.operations.empty() && request.aimed.empty() && !request.robot)
       throw CLI::RequiredError("--ops (or --slash, --sever, --puncture, --robot)");
     if (!request.dry_run && !request.output) throw CLI::RequiredError("--output (or --dry-run)");
-    if (request.output) check_output_format(*verb, *request.output);
+    if (request.output) check_output(*verb, request);
   });
   add_model_reading(*verb, request.reading);
   add_budget_of_operations(*verb, request.budget);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,11 +29,12 @@ constexpr float kFloorRadius = 1.5f;  ///< In diagonals.
 struct Shot {
   const char* name;
   double clip_fraction, closeness, seconds;
+  double turn;  ///< Degrees by which the view turns around a model that does not move.
 };
-constexpr Shot kShots[] = {{"torn", kTearFraction, kCloseness, 0},
-                           {"wound", kTearFraction, 1, 0},
-                           {"later_1", 0.65, 0, 0.5},
-                           {"later_2", 0.95, kCloseness, 0.5}};
+constexpr Shot kShots[] = {{"torn", kTearFraction, kCloseness, 0, 0},
+                           {"wound", kTearFraction, 1, 0, 0},
+                           {"later_1", 0.65, 0, 0.5, 40},
+                           {"later_2", 0.95, kCloseness, 0.5, -40}};
 
 Result<std::vector<DeformedMesh>> posed_at(const Character& character, const PoseSpec& spec) {
   const Result<ModelPose> pose = make_pose(character, spec);
@@ -120,9 +122,10 @@ Status draw_motion(const DemoTear& tear, const ModelLooks& looks, const std::fil
     if (const Status status = actor.play(motion->pose(frame), 0); !status) return status;
     const Result<TornActor::Posture> posture = actor.posture();
     if (!posture) return posture.error();
-    RenderScene scene = actor.scene(*posture, looks);
-    add_floor(places, scene);
-    pictures.push_back(trace(scene, camera, kMotion));
+    Result<RenderScene> scene = actor.scene(*posture, looks);
+    if (!scene) return scene.error();
+    add_floor(places, *scene);
+    pictures.push_back(trace(*scene, camera, kMotion));
   }
   const Budget::Writing writing(budget);
   return write_animated_png(png, pictures, static_cast<int>(1000 * kDemoFrame));
@@ -131,6 +134,15 @@ Status draw_motion(const DemoTear& tear, const ModelLooks& looks, const std::fil
 Status write_still(const std::filesystem::path& png, const Picture& picture, Budget& budget) {
   const Budget::Writing writing(budget);
   return write_png(png, picture);
+}
+
+/// A view that goes around the model.
+ViewFrame turned(const ViewFrame& frame, double degrees) {
+  const double angle = degrees * std::numbers::pi / 180;
+  ViewFrame result = frame;
+  result.towards_eye = std::cos(angle) * frame.towards_eye + std::sin(angle) * frame.right;
+  result.right = frame.up.cross(result.towards_eye);
+  return result;
 }
 
 /// One picture of the torn model, and one of the same moment before the tear if that is wanted.
@@ -142,17 +154,20 @@ Status draw_shot(const Shot& shot, const DemoTear& tear, const ModelLooks& looks
   if (!status) return status;
   const Result<TornActor::Posture> posture = actor.posture();
   if (!posture) return posture.error();
-  RenderScene scene = actor.scene(*posture, looks);
+  Result<RenderScene> scene = actor.scene(*posture, looks);
+  if (!scene) return scene.error();
   std::vector<Vec3d> wound;
   if (posture->wound) {
     wound = posture->wound->places(posture->open);
-    frame = see_wound(scene, frame).frame;
+    frame = see_wound(*scene, frame).frame;
   }
   const std::vector<Vec3d> places = places_of(actor.character(), posture->open);
-  const Camera camera = aim(frame, places, wound, shot.closeness);
-  add_floor(places, scene);
+  const bool is_still = tear.source->clips.empty();
+  const Camera camera =
+      aim(is_still ? turned(frame, shot.turn) : frame, places, wound, shot.closeness);
+  add_floor(places, *scene);
   const std::filesystem::path png = folder / (std::string(shot.name) + ".png");
-  if (const Status written = write_still(png, trace(scene, camera, kStill), budget); !written)
+  if (const Status written = write_still(png, trace(*scene, camera, kStill), budget); !written)
     return written;
   if (&shot != &kShots[0]) return {};
   const auto untorn = posed_at(*tear.source, pose);

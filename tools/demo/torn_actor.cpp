@@ -73,12 +73,25 @@ Result<TornActor::Posture> TornActor::posture() {
   return posture;
 }
 
-RenderScene TornActor::scene(const Posture& posture, const ModelLooks& looks) const {
+Result<RenderScene> TornActor::scene(const Posture& posture, const ModelLooks& looks) {
+  const TornModel& model = *model_.instance.model();
+  const Character& source = model.source();
+  if (posture.wound && bloody_lips_ != wound_.lips.size()) {
+    const auto posed = pose_positions(source, tear_pose_);
+    if (!posed) return posed.error();
+    Result<BloodCovers> blood = BloodCovers::create(model, *posed, looks, posture.wound->length());
+    if (!blood) return blood.error();
+    blood_ = std::move(*blood);
+    bloody_lips_ = wound_.lips.size();
+  }
   RenderScene scene = looks.begin_scene();
-  const Character& source = model_.instance.model()->source();
-  for (std::uint32_t m = 0; m < posture.open.size(); ++m)
-    looks.add_mesh(character().meshes[m], posture.open[m],
-                   {static_cast<std::uint32_t>(source.meshes[m].submeshes.size())}, scene);
+  const auto covers = blood_.add_to(looks, scene);
+  for (std::uint32_t m = 0; m < posture.open.size(); ++m) {
+    ModelLooks::Flesh flesh{static_cast<std::uint32_t>(source.meshes[m].submeshes.size())};
+    if (m < covers.size()) flesh.covers = covers[m];
+    flesh.reaches = blood_.reaches_of(m);
+    looks.add_mesh(character().meshes[m], posture.open[m], flesh, scene);
+  }
   if (posture.wound) posture.wound->add(posture.closed, posture.open, ModelLooks::kFlesh, scene);
   return scene;
 }

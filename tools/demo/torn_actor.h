@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "tools/picture/blood_covers.h"
 #include "tools/picture/model_looks.h"
 #include "tools/picture/open_lips.h"
 #include "tools/picture/wound_flesh.h"
@@ -35,7 +36,8 @@ class TornActor {
     std::optional<WoundFlesh> wound;         ///< Empty before the first tear.
   };
   [[nodiscard]] Result<Posture> posture();
-  [[nodiscard]] RenderScene scene(const Posture& posture, const ModelLooks& looks) const;
+  /// A scene that is valid until the next call. @return the failures of lay_blood().
+  [[nodiscard]] Result<RenderScene> scene(const Posture& posture, const ModelLooks& looks);
   [[nodiscard]] const Character& character() const { return model_.instance.character(); }
 
  private:
@@ -45,6 +47,8 @@ class TornActor {
   TearOperation tear_;
   ModelPose tear_pose_, pose_;
   Wound wound_;
+  BloodCovers blood_;
+  std::size_t bloody_lips_ = 0;  ///< Lips of the wound when `blood_` was laid.
 };
 
 }  // namespace sunder::tools

@@ -28,6 +28,7 @@ Result<ModelLooks> ModelLooks::create(const SourceDocument* source, std::uint64_
   flesh.is_flesh = true;
   looks.materials_ = {flesh, plain};
   looks.colours_.resize(kFirst);
+  looks.lack_images_.resize(kFirst);
   if (source == nullptr) return looks;
   Result<BaseColours> colours = read_base_colours(*source, kMostImageBytes);
   if (!colours) return colours.error();
@@ -42,7 +43,7 @@ Result<ModelLooks> ModelLooks::create(const SourceDocument* source, std::uint64_
   for (BaseColour& colour : colours->materials) {
     bool lacks_image = colour.lacks_image;
     looks.materials_.push_back(looks.material_of(colour, lacks_image));
-    if (lacks_image) ++looks.without_texture_;
+    looks.lack_images_.push_back(lacks_image);
     looks.colours_.push_back(colour);
   }
   return looks;
@@ -72,11 +73,23 @@ RenderMaterial ModelLooks::material_of(const BaseColour& colour, bool& lacks_ima
 }
 
 std::string ModelLooks::missing_textures() const {
-  if (without_texture_ == 0) return {};
-  return std::to_string(without_texture_) +
+  const auto without = std::ranges::count(lack_images_, true);
+  if (without == 0) return {};
+  return std::to_string(without) +
          " materials are drawn without a texture: its image is missing, neither PNG nor JPEG, or "
          "too large (all together may have " +
          std::to_string(most_pixels_) + " pixels)";
+}
+
+ModelLooks::OfFile ModelLooks::of_file(std::uint32_t material) const {
+  if (material == kNone || kFirst + std::size_t{material} >= materials_.size()) {
+    OfFile none;
+    none.material.factor.setOnes();
+    none.material.is_skin = true;
+    return none;
+  }
+  const std::size_t at = kFirst + std::size_t{material};
+  return {colours_[at], materials_[at], lack_images_[at]};
 }
 
 RenderScene ModelLooks::begin_scene() const {
@@ -102,16 +115,21 @@ void ModelLooks::add_mesh(const Mesh& mesh, const DeformedMesh& posed, const Fle
     drawn.has_flesh_inside = flesh.inside != nullptr && (*flesh.inside)[t];
     // The plain material does not darken the colours of the vertices.
     const bool is_plain = drawn.material == kPlain && has_colors;
-    const BaseColour& colour = colours_[drawn.material];
-    const bool has_uvs = colour.uv_set < mesh.uv_sets.size();
+    Cover cover{kNone, colours_[drawn.material].uv_set, colours_[drawn.material].image_from_uv};
+    if (submesh < flesh.covers.size() && flesh.covers[submesh].material != kNone) {
+      cover = flesh.covers[submesh];
+      drawn.material = cover.material;
+    }
+    const bool has_uvs = cover.uv_set < mesh.uv_sets.size();
     for (std::size_t i = 0; i < 3; ++i) {
       const std::uint32_t vertex = triangle[i];
       drawn.corners[i] = posed.positions[vertex];
       drawn.normals[i] = posed.normals[vertex];
+      drawn.rest[i] = flesh.reaches * mesh.positions[vertex];
       const Vec3f at = posed.positions[vertex] / flesh.unit;
       drawn.uvs[i] = Vec2f::Zero();
       if (has_uvs)
-        drawn.uvs[i] = colour.image_from_uv * mesh.uv_sets[colour.uv_set][vertex].homogeneous();
+        drawn.uvs[i] = cover.image_from_uv * mesh.uv_sets[cover.uv_set][vertex].homogeneous();
       if (is_flesh) drawn.uvs[i] = {at.x() + 0.5f * at.y(), -1000 - at.z() - 0.5f * at.y()};
       drawn.tints[i] = has_colors ? mesh.color_sets[0][vertex] : Vec4f(Vec4f::Ones());
       if (is_plain) drawn.tints[i] = drawn.tints[i].cwiseQuotient(kPlainColor);

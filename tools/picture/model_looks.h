@@ -4,6 +4,7 @@
 #include <sunder/io/character_file.h>
 #include <sunder/skinning/deform.h>
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,15 +26,36 @@ class ModelLooks {
   /// Says how many materials are drawn without a texture that their file names; empty if none is.
   [[nodiscard]] std::string missing_textures() const;
 
+  /// A material of the file for those who lay something on it.
+  struct OfFile {
+    BaseColour colour;         ///< Its images are not those of `material`.
+    RenderMaterial material;   ///< Refers to images of this object.
+    bool lacks_image = false;  ///< The file names one that is not drawn.
+  };
+  /// @param material  as Submesh::material; white without texture if the file has none.
+  [[nodiscard]] OfFile of_file(std::uint32_t material) const;
+
+  /// The colour of what has no material.
+  [[nodiscard]] const Vec4f& plain_color() const { return materials_[kPlain].factor; }
+
   /// A scene without triangles that has these materials; it must not outlive this object.
   [[nodiscard]] RenderScene begin_scene() const;
 
+  /// What a submesh is drawn with in place of its material.
+  struct Cover {
+    std::uint32_t material = kNone;  ///< In the scene; kNone: its own.
+    std::uint32_t uv_set = 0;
+    Eigen::Matrix<float, 2, 3> image_from_uv = Eigen::Matrix<float, 2, 3>::Identity();
+  };
   /// How add_mesh() takes the parts of a mesh.
   struct Flesh {
     std::uint32_t first_submesh = kNone;  ///< From this one on they are walls and caps: flesh.
     float unit = 1;                       ///< Size of its features, metres.
     /// Per triangle: whether its inside is flesh too; null: of none.
     const std::vector<bool>* inside = nullptr;
+    /// Per submesh of the source: what it is drawn with in place of its material; empty: none is.
+    std::span<const Cover> covers = {};
+    float reaches = 1;  ///< BloodPlace::rest per metre in bind space.
   };
   /// Adds the surface of a mesh to a scene that began here.
   /// @param posed  of the mesh, with normals.
@@ -51,7 +73,7 @@ class ModelLooks {
   std::vector<Image> images_;
   std::vector<RenderMaterial> materials_;  ///< Flesh, a plain one, those of the file.
   std::vector<BaseColour> colours_;        ///< Per material, for its texture coordinates.
-  std::size_t without_texture_ = 0;        ///< Number of materials.
+  std::vector<bool> lack_images_;          ///< Per material.
   std::uint64_t most_pixels_ = 0;
 };
 

@@ -157,6 +157,15 @@ void move_apart(const Character& character, const PlaneCut& cut,
   }
 }
 
+Result<BloodCovers> blood_of(const TornModel& torn, const ModelPose& pose,
+                             std::span<const Wound> wounds, const ModelLooks& looks) {
+  const Result<std::vector<DeformedMesh>> source = pose_positions(torn.source(), pose);
+  if (!source) return source.error();
+  double length = 0;
+  for (const Wound& wound : wounds) length += wound.length;
+  return BloodCovers::create(torn, *source, looks, length);
+}
+
 /// The view of a wound; says if there is none that shows it.
 ViewFrame seen_wound(const RenderScene& scene, const ViewFrame& preferred,
                      const std::filesystem::path& png, const Messages& messages) {
@@ -212,7 +221,10 @@ Status draw_torn(const LoadedCharacter& loaded, std::span<const Operation> histo
   if (!looks) return looks.error();
   if (const std::string missing = looks->missing_textures(); !missing.empty())
     messages.warn(png.string() + ": " + missing);
-  RenderScene scene = make_torn_scene({torn, *closed, open, wounds}, *looks, kThickness * diagonal);
+  const Result<BloodCovers> blood = blood_of(torn, *pose, wounds, *looks);
+  if (!blood) return blood.error();
+  RenderScene scene =
+      make_torn_scene({torn, *closed, open, wounds, *blood}, *looks, kThickness * diagonal);
   add_surfaces(*beside, *looks, scene);
   if (cut == nullptr)
     frame = seen_wound(scene, frame, png, messages);  // A cut is seen along its plane.

@@ -55,11 +55,16 @@ RenderScene make_torn_scene(const TornView& view, const ModelLooks& looks, doubl
   std::vector<std::vector<bool>> inside;
   if (std::ranges::count(is_torn, true) > 0)
     inside = enclosing_faces(view.torn.character(), view.closed);
-  for (std::uint32_t m = 0; m < view.open.size(); ++m)
-    looks.add_mesh(view.torn.character().meshes[m], view.open[m],
-                   {static_cast<std::uint32_t>(view.torn.source().meshes[m].submeshes.size()),
-                    kUnitOfThickness * depth, is_torn[m] ? &inside[m] : nullptr},
-                   scene);
+  const auto covers = view.blood.add_to(looks, scene);
+  for (std::uint32_t m = 0; m < view.open.size(); ++m) {
+    ModelLooks::Flesh flesh;
+    flesh.first_submesh = static_cast<std::uint32_t>(view.torn.source().meshes[m].submeshes.size());
+    flesh.unit = kUnitOfThickness * depth;
+    if (is_torn[m]) flesh.inside = &inside[m];
+    if (m < covers.size()) flesh.covers = covers[m];
+    flesh.reaches = view.blood.reaches_of(m);
+    looks.add_mesh(view.torn.character().meshes[m], view.open[m], flesh, scene);
+  }
   const WoundFlesh wounds(view.torn, view.wounds, view.closed);
   wounds.add(view.closed, view.open, ModelLooks::kFlesh, scene);
   for (const RimEdge& edge : rims) {

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "tools/picture/blood_covers.h"
 #include "tools/picture/model_looks.h"
 #include "tools/picture/open_lips.h"
 #include "tools/render/render_scene.h"
@@ -17,10 +18,12 @@ struct TornView {
   const std::vector<DeformedMesh>& closed;  ///< With coincident lips.
   const std::vector<DeformedMesh>& open;    ///< With the lips pulled open, or pieces apart.
   std::span<const Wound> wounds;            ///< That a trough of flesh shuts.
+  const BloodCovers& blood;
 };
 
 /// A scene of a torn model: wounds are troughs of flesh; other openings have rims as thick as
-/// flesh, and flesh is what shows through them. Walls and caps are flesh too.
+/// flesh, and flesh is what shows through them. Walls and caps are flesh too. It must not outlive
+/// the blood.
 /// @param thickness  of the flesh at rims, metres.
 [[nodiscard]] RenderScene make_torn_scene(const TornView& view, const ModelLooks& looks,
                                           double thickness);

@@ -19,7 +19,7 @@ constexpr std::size_t kAcrossInPictures = 14;  ///< Faces from lip to lip in pic
 using Section = WoundFlesh::Section;
 using Vertex = WoundFlesh::Vertex;
 constexpr float kDepthOfGap = 0.8f, kDepthOfThickness = 0.4f;
-constexpr float kRednessOfLength = 0.055f;
+constexpr float kBloodOfLength = 0.06f;
 constexpr int kSmoothing = 6;
 
 Vec3f place(const std::vector<DeformedMesh>& posed, std::uint32_t mesh, std::uint32_t vertex) {
@@ -362,8 +362,8 @@ void WoundFlesh::add(const std::vector<DeformedMesh>& closed, const std::vector<
     for (const std::uint32_t i : {0u, static_cast<std::uint32_t>(kAcrossInPictures)})
       scene.lips.push_back(
           {ground.open[ground.at({span.a, i})], ground.open[ground.at({span.b, i})]});
-  // Fresh lips are pale: the skin reddens as they open.
-  scene.redness = std::min(kRednessOfLength * length_, 0.5f * ground.widest);
+  // Fresh lips are pale: blood comes as they open.
+  scene.blood_reach = std::min(kBloodOfLength * length_, ground.widest);
 }
 
 std::vector<WoundFlesh::Bed> WoundFlesh::make_beds(const std::vector<DeformedMesh>& closed,

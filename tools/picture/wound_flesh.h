@@ -23,7 +23,7 @@ class WoundFlesh {
   WoundFlesh(const TornModel& torn, std::span<const Wound> wounds,
              const std::vector<DeformedMesh>& closed);
 
-  /// Adds the troughs, and the lips with the redness around them, to a scene of the torn model.
+  /// Adds the troughs, and the lips with the blood around them, to a scene of the torn model.
   /// @param closed, open  in the pose of the scene.
   /// @param flesh         the material.
   void add(const std::vector<DeformedMesh>& closed, const std::vector<DeformedMesh>& open,

@@ -45,13 +45,15 @@ Bytes deflated(const Bytes& data) {
   return result;
 }
 
-Bytes header(int width, int height, bool has_palette) {
+enum class PngColor : std::uint8_t { rgb = 2, indexed = 3, rgba = 6 };
+
+Bytes header(int width, int height, PngColor color) {
   Bytes data;
   append_u32(data, static_cast<std::uint32_t>(width));
   append_u32(data, static_cast<std::uint32_t>(height));
-  data += static_cast<char>(8);                    // bits per channel
-  data += static_cast<char>(has_palette ? 3 : 2);  // indices, or RGB
-  data.append(3, '\0');                            // deflate; filters per row; not interlaced
+  data += static_cast<char>(8);  // bits per channel
+  data += static_cast<char>(color);
+  data.append(3, '\0');  // deflate; filters per row; not interlaced
   Bytes file = "\x89PNG\r\n\x1a\n";
   append_chunk(file, "IHDR", data);
   return file;
@@ -67,6 +69,22 @@ Bytes filtered_rows(const Picture& picture) {
       for (std::size_t i = 0; i < 3; ++i) {
         const int above = y == 0 ? 0 : picture.colors[(y - 1) * width + x][i];
         rows += static_cast<char>(picture.colors[y * width + x][i] - above);
+      }
+  }
+  return rows;
+}
+
+Bytes filtered_rows(const Image& image, bool has_alpha) {
+  Bytes rows;
+  const auto width = static_cast<std::size_t>(image.width);
+  const std::size_t channels = has_alpha ? 4 : 3;
+  rows.reserve((channels * width + 1) * static_cast<std::size_t>(image.height));
+  for (std::size_t y = 0; y < static_cast<std::size_t>(image.height); ++y) {
+    rows += static_cast<char>(2);
+    for (std::size_t x = 0; x < width; ++x)
+      for (std::size_t i = 0; i < channels; ++i) {
+        const std::size_t at = 4 * (y * width + x) + i;
+        rows += static_cast<char>(image.rgba[at] - (y == 0 ? 0 : image.rgba[at - 4 * width]));
       }
   }
   return rows;
@@ -116,16 +134,26 @@ Bytes indexed_rows(const Picture& picture, const PixelBox& box, const Palette& p
 }  // namespace
 
 Status write_png(const std::filesystem::path& file, const Picture& picture) {
-  Bytes bytes = header(picture.width, picture.height, false);
+  Bytes bytes = header(picture.width, picture.height, PngColor::rgb);
   append_chunk(bytes, "IDAT", deflated(filtered_rows(picture)));
   append_chunk(bytes, "IEND", {});
   return write_text(file, bytes);
 }
 
+std::vector<std::byte> encode_png(const Image& image) {
+  bool has_alpha = false;
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4) has_alpha |= image.rgba[i] != 255;
+  Bytes bytes = header(image.width, image.height, has_alpha ? PngColor::rgba : PngColor::rgb);
+  append_chunk(bytes, "IDAT", deflated(filtered_rows(image, has_alpha)));
+  append_chunk(bytes, "IEND", {});
+  const auto* const begin = reinterpret_cast<const std::byte*>(bytes.data());
+  return {begin, begin + bytes.size()};
+}
+
 Status write_animated_png(const std::filesystem::path& file, const std::vector<Picture>& pictures,
                           int milliseconds) {
   const Palette palette(pictures);
-  Bytes bytes = header(pictures.front().width, pictures.front().height, true);
+  Bytes bytes = header(pictures.front().width, pictures.front().height, PngColor::indexed);
   Bytes control, colors;
   append_u32(control, static_cast<std::uint32_t>(pictures.size()));
   append_u32(control, 0);  // Runs for ever.

@@ -3,9 +3,12 @@
 #include <sunder/core/status.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <vector>
+
+#include "tools/render/image.h"
 
 namespace sunder::tools {
 
@@ -19,6 +22,9 @@ struct Picture {
 
 /// Writes a PNG; the whole file or nothing.
 [[nodiscard]] Status write_png(const std::filesystem::path& file, const Picture& picture);
+
+/// The bytes of a PNG with the pixels of an image; without alpha if all of them are opaque.
+[[nodiscard]] std::vector<std::byte> encode_png(const Image& image);
 
 /// Writes pictures of one size as an animated PNG of 256 colours that runs for ever; programs that
 /// do not animate it show the first one. Each picture stores only the box that differs from the

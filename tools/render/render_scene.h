@@ -29,7 +29,7 @@ struct RenderMaterial {
   float cutoff = 0.5f;
   bool is_unlit = false;  ///< Its colour is shown as it is.
   bool is_flesh = false;  ///< Coloured by flesh_color() of the texture coordinates, and wet.
-  bool is_skin = false;   ///< Reddened near wounds.
+  bool is_skin = false;   ///< Bloody near RenderScene::lips.
 };
 
 struct RenderTriangle {
@@ -37,6 +37,8 @@ struct RenderTriangle {
   std::array<Vec3f, 3> normals;  ///< Unit length; either side.
   std::array<Vec2f, 3> uvs;
   std::array<Vec4f, 3> tints;  ///< Linear RGBA.
+  /// BloodPlace::rest, for the blood of RenderMaterial::is_skin.
+  std::array<Vec3f, 3> rest = {Vec3f::Zero(), Vec3f::Zero(), Vec3f::Zero()};
   std::uint32_t material = 0;
   bool has_flesh_inside = false;  ///< Seen from behind its normals.
 };
@@ -55,9 +57,9 @@ struct RenderScene {
   std::vector<RenderMaterial> materials;
   std::vector<RenderTriangle> triangles;
   std::vector<RenderMark> marks;
-  /// The lips of wounds, as segments; skin is reddened within `redness` of them.
+  /// The lips of wounds, as segments; there is blood on the skin within `blood_reach` of them.
   std::vector<std::array<Vec3f, 2>> lips;
-  float redness = 0;
+  float blood_reach = 0;
   Vec3f backdrop = Vec3f(0.62f, 0.65f, 0.69f);  ///< Linear RGB in the middle of the picture.
   float backdrop_rise = 0.08f;                  ///< By this share it is brighter at the upper edge.
   float floor = 0;         ///< Height of the floor, which shows nothing but shadows.

@@ -77,7 +77,7 @@ float Shading::Light::share_of_lamp() const { return whole_lamp > 0 ? lamp / who
 Shading::Shading(const RenderScene& scene, const Lighting& lighting)
     : scene_(scene),
       lighting_(lighting),
-      redness_(scene.lips, scene.redness),
+      blood_(scene.lips, scene.blood_reach),
       are_holed_(holed_triangles(scene)),
       nearly_nothing_(2e-5f * size_of(scene)),
       tree_(corners_of(scene), holes()) {}
@@ -157,7 +157,8 @@ Shading::Surface Shading::surface_at(const TriangleTree::Hit& hit, const Vec3f& 
       surface.emission =
           surface.emission.cwiseProduct(sampled(*material.emission_image, material, uv).head<3>());
     if (material.is_skin)
-      surface.color.head<3>() = redness_.reddened(surface.color.head<3>(), surface.place);
+      surface.color.head<3>() =
+          blood_.bloodied(surface.color.head<3>(), surface.place, mean(shares, triangle.rest));
     if (material.alpha != RenderMaterial::Alpha::blended) surface.color.w() = 1;
     surface.color.w() = std::clamp(surface.color.w(), 0.0f, 1.0f);
   }

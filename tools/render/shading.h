@@ -4,7 +4,7 @@
 #include <span>
 
 #include "tools/render/lighting.h"
-#include "tools/render/redness.h"
+#include "tools/render/lip_blood.h"
 #include "tools/render/render_scene.h"
 #include "tools/render/triangle_tree.h"
 
@@ -88,7 +88,7 @@ class Shading {
 
   const RenderScene& scene_;
   const Lighting& lighting_;
-  Redness redness_;
+  LipBlood blood_;
   std::vector<bool> are_holed_;  ///< Per triangle.
   float nearly_nothing_ = 0;     ///< By which rays start above surfaces.
   TriangleTree tree_;

@@ -21,6 +21,11 @@ class FleshMaterials {
   /// SaveOptions::materials.
   [[nodiscard]] std::vector<AppendedMaterial> appended() const;
 
+  /// The number of the first of SaveOptions::painted.
+  [[nodiscard]] std::uint32_t first_painted(std::size_t appended) const {
+    return kinds_.material_count() + static_cast<std::uint32_t>(appended);
+  }
+
   /// The material of a wall beside one of the source's. Links of a robot have no flesh.
   [[nodiscard]] std::uint32_t beside(std::uint32_t mesh, std::uint32_t material) const;
 

@@ -9,6 +9,7 @@
 #include "tools/model/history.h"
 #include "tools/open/opened_character.h"
 #include "tools/open/walled_character.h"
+#include "tools/tear/blood_of_run.h"
 #include "tools/tear/flesh_materials.h"
 #include "tools/value_of.h"
 
@@ -59,13 +60,16 @@ Result<WrittenModel> written_model(const TearRun& run) {
   const bool is_open = run.opening && run.opening->widest_gap > 0;
   const bool gets_flesh =
       run.request.flesh.use == FleshOption::Use::flesh && has_fillings(run.model);
-  if (!is_open && !gets_flesh && run.model.scars().empty())
+  if (!is_open && !gets_flesh && !run.blood && run.model.scars().empty())
     return WrittenModel{std::shared_ptr<const Character>(std::shared_ptr<void>(), &closed), {}};
   const Result<FleshMaterials> flesh = FleshMaterials::create(run);
   if (!flesh) return flesh.error();
   Character walled = closed;
   mark_scars(run.model, walled);
-  flesh->give_to_fillings(walled);
+  if (gets_flesh) flesh->give_to_fillings(walled);
+  std::vector<AppendedMaterial> appended;
+  if (is_open || gets_flesh) appended = flesh->appended();
+  give_blood(run, flesh->first_painted(appended.size()), walled);
   if (is_open) {
     Opening opening = *run.opening;
     const WallMaterial wall_material = [&](std::uint32_t mesh, std::uint32_t submesh) {
@@ -81,7 +85,7 @@ Result<WrittenModel> written_model(const TearRun& run) {
     if (!open) return open.error();
     walled = std::move(*open);
   }
-  return WrittenModel{std::make_shared<const Character>(std::move(walled)), flesh->appended()};
+  return WrittenModel{std::make_shared<const Character>(std::move(walled)), std::move(appended)};
 }
 
 Json open_lips_json(const TearRun& run) {

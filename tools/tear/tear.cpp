@@ -24,6 +24,7 @@
 #include "tools/model/named_poses.h"
 #include "tools/model/robot_joints.h"
 #include "tools/picture/torn_picture.h"
+#include "tools/tear/blood_of_run.h"
 #include "tools/tear/open_lips_of_run.h"
 #include "tools/tear/refit.h"
 #include "tools/tear/tear_files.h"
@@ -168,6 +169,7 @@ ExitCode finish(TearRun& run, Clock::time_point begin) {
     return complain(request.model.string(), status, ExitCode::internal_error);
   if (const ExitCode code = choose_influences(run); code != ExitCode::ok) return code;
   if (const ExitCode code = open_lips_of_run(run); code != ExitCode::ok) return code;
+  if (const ExitCode code = lay_blood_of_run(run); code != ExitCode::ok) return code;
   std::string report;
   if (request.report) {
     const Result<Json> json = report_json(run);

@@ -10,6 +10,7 @@
 #include "tools/messages/overwriting.h"
 #include "tools/messages/text_file.h"
 #include "tools/model/model_output.h"
+#include "tools/tear/blood_of_run.h"
 #include "tools/tear/flesh_materials.h"
 #include "tools/tear/open_lips_of_run.h"
 #include "tools/written_weights/place_bound.h"
@@ -57,9 +58,11 @@ std::vector<NamedFile> outputs_of(const TearRequest& request) {
 
 /// What the file tells of its vertices.
 ExitCode add_origins(const TearRun& run, SaveOptions& save) {
-  // Positions that gape are not those of the source, and USD has no such record.
+  // Positions that gape and painted materials are not those of the source, and USD has no such
+  // record.
   const TearRequest& request = run.request;
-  if (request.without_origins || request.open == OpenLips::baked || is_usd(*request.output))
+  if (request.without_origins || request.open == OpenLips::baked || request.blood ||
+      is_usd(*request.output))
     return ExitCode::ok;
   const std::string place = run.request.model.string();
   Result<std::vector<MeshOrigins>> origins = vertex_origins(run.model);
@@ -112,7 +115,11 @@ ExitCode write_pieces(TearRun& run) {
   if (!flesh) return complain(*request.pieces, flesh.error(), ExitCode::internal_error);
   SaveOptions save = request.save;
   save.materials = flesh->appended();
-  const auto with_flesh = [&](const DetachedPiece& piece) { return flesh->with_flesh(piece); };
+  save.painted = painted_materials(run);
+  const std::uint32_t first_painted = flesh->first_painted(save.materials.size());
+  const auto with_flesh = [&](const DetachedPiece& piece) {
+    return with_blood(run, first_painted, piece, flesh->with_flesh(piece));
+  };
   const ExitCode code =
       run.pieces->write(run.loaded, save, with_flesh, run.messages, run.piece_files);
   if (code == ExitCode::ok && run.piece_files.empty())
@@ -141,6 +148,7 @@ ExitCode write_files(const TearRun& run, const std::string& report, const std::s
   if (!written)
     return complain(request.output->string(), written.error(), ExitCode::internal_error);
   save.materials = written->materials;
+  save.painted = painted_materials(run);
   if (const ExitCode code = add_origins(run, save); code != ExitCode::ok) return code;
   if (const Status status =
           write_changed(*request.output, *written->character, run.loaded, save, run.messages);

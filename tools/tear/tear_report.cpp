@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "tools/model/model_json.h"
+#include "tools/tear/blood_of_run.h"
 #include "tools/tear/open_lips_of_run.h"
 #include "tools/tear/weight_report.h"
 #include "tools/written_weights/certified_report.h"
@@ -79,6 +80,7 @@ Result<Json> report_json(TearRun& run) {
   json["influences_written_max"] = most_written(run);
   json["influences_written"] = influences_written_json(run);
   if (run.opening) json["open"] = open_lips_json(run);
+  if (run.blood) json["blood"] = blood_json(run);
   json["result"] = result;
   return json;
 }

@@ -6,6 +6,7 @@
 
 #include <optional>
 
+#include "tools/blood/blood_layers.h"
 #include "tools/messages/messages.h"
 #include "tools/model/posed_source.h"
 #include "tools/open/opening.h"
@@ -36,6 +37,13 @@ struct RunTimes {
   double loading = 0, operations = 0, saving = 0;
 };
 
+/// What --blood adds to the model.
+struct RunBlood {
+  double reach = 0;                            ///< Metres.
+  std::vector<std::vector<std::byte>> images;  ///< PNG, per texture of `layers`, which has none.
+  BloodLayers layers;
+};
+
 /// A model to which operations are applied, and their reports.
 struct TearRun {
   const TearRequest& request;
@@ -57,6 +65,7 @@ struct TearRun {
   std::vector<std::string> piece_files = {};  ///< Those that were written.
   std::vector<Operation> played = {};         ///< Those that met the surface, as given.
   std::optional<Opening> opening = {};        ///< With --open.
+  std::optional<RunBlood> blood = {};         ///< With --blood.
 };
 
 }  // namespace sunder::tools

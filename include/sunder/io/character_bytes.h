@@ -95,6 +95,20 @@ struct AppendedMaterial {
   bool operator==(const AppendedMaterial&) const = default;
 };
 
+/// A material of the source document whose base colour is another image: a copy that is written
+/// beside it, with its other textures, samplers and extensions.
+struct PaintedMaterial {
+  /// Where in the image texture coordinates are: at offset + scale * (u, v).
+  struct Placement {
+    Vec2f offset = Vec2f::Zero(), scale = Vec2f::Ones();
+  };
+  std::uint32_t source = kNone;  ///< In the source document; kNone: glTF's default material.
+  std::vector<std::byte> image;  ///< PNG, sRGB. The factor of the base colour is part of it.
+  std::uint32_t uv_set = 0;      ///< Texture coordinates of the image.
+  /// Empty: as the source places its own image (KHR_texture_transform).
+  std::optional<Placement> placement = {};
+};
+
 /// How the influences of the meshes that are written are stored. Meshes that stay as they are in
 /// the source document keep theirs.
 struct SaveOptions {
@@ -108,6 +122,9 @@ struct SaveOptions {
   /// Materials that Submesh::material counts after those of the source document. Only to save what
   /// was loaded.
   std::vector<AppendedMaterial> materials = {};
+  /// Materials that Submesh::material counts after `materials`. GLB only, and only to save what was
+  /// loaded.
+  std::vector<PaintedMaterial> painted = {};
   /// One per mesh of the character, for a file that explains itself (docs/torn_file.md); empty: no
   /// record. Only to save what was loaded. Further vertices of a mesh have no origin.
   std::vector<MeshOrigins> origins = {};

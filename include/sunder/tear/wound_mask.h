@@ -2,15 +2,22 @@
 
 #include <sunder/tear/torn_model.h>
 
+#include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 
 namespace sunder {
 
 struct WoundMaskOptions {
   std::uint32_t width = 1024, height = 1024;  ///< Texels of the texture, 1 to 16384.
-  std::uint32_t uv_set = 0;                   ///< Index in Mesh::uv_sets.
+  /// Index in Mesh::uv_sets; kNone: no texture, for distance_at() alone.
+  std::uint32_t uv_set = 0;
+  /// The submesh whose triangles are painted, where each has a texture of its own; kNone: all.
+  std::uint32_t submesh = kNone;
+  /// Where in the texture a place (u, v, 1) of the texture coordinates is.
+  Eigen::Matrix<double, 2, 3> texture_from_uv = Eigen::Matrix<double, 2, 3>::Identity();
   double reach = 0.01;  ///< Metres along the surface; texels farther from a lip have this distance.
   /// Texels, 1 to 64. So far beyond the border of a chart texels get the value of the nearest place
   /// in it, so that a filter that reads across a UV seam finds the wound.
@@ -24,6 +31,12 @@ struct TexelRectangle {
 
   [[nodiscard]] bool is_empty() const { return width == 0; }
   bool operator==(const TexelRectangle&) const = default;
+};
+
+/// A place of the source.
+struct SourcePlace {
+  std::uint32_t triangle = 0;              ///< Of the mesh.
+  std::array<double, 3> barycentric = {};  ///< Per corner; sum 1.
 };
 
 /// Counts of what the texture cannot show.
@@ -49,7 +62,7 @@ class SUNDER_API WoundMask {
  public:
   /// Paints the whole texture.
   /// @param mesh  index in Character::meshes.
-  /// @return index_out_of_range: no such mesh; not_found: the mesh has no such UV set;
+  /// @return index_out_of_range: no such mesh or submesh; not_found: no such UV set;
   ///         invalid_argument: an option is outside its range; limit_exceeded: out of memory.
   ///         O(triangles + texels + lips x faces within reach of each). Allocates 8 bytes per texel
   ///         and about 90 per triangle of the model.
@@ -74,6 +87,15 @@ class SUNDER_API WoundMask {
   [[nodiscard]] std::span<const float> distances() const;
   /// Whether a triangle, or the dilation beyond one, uses a texel. The index is unchecked.
   [[nodiscard]] bool is_painted(std::uint32_t column, std::uint32_t row) const;
+  /// The place that a texel shows; none if it is not painted. The index is unchecked.
+  [[nodiscard]] std::optional<SourcePlace> place_of(std::uint32_t column, std::uint32_t row) const;
+  /// Whether all painted triangles that see a wound have an area in the texture and texels that no
+  /// other triangle uses. Otherwise the texture does not show each wound at its place alone.
+  /// O(texels of these triangles).
+  [[nodiscard]] bool has_own_texels() const;
+  /// The distance at any place of the mesh, as distances() has it; painted or not. The triangle is
+  /// unchecked. O(lips within reach of it).
+  [[nodiscard]] double distance_at(const SourcePlace& place) const;
   [[nodiscard]] const WoundMaskOptions& options() const;
   [[nodiscard]] const WoundMaskNotes& notes() const;
 

@@ -10,17 +10,19 @@
 
 namespace sunder::tools {
 
-/// How red skin is near the lips of wounds. Immutable; any number of threads may ask.
-class Redness {
+/// The blood on skin near the lips of wounds, where no texture shows it. Immutable; any number of
+/// threads may ask.
+class LipBlood {
  public:
   using Segment = std::array<Vec3f, 2>;
 
   /// @param lips   outlive this object.
-  /// @param reach  distance at which redness fades; 0: there is none.
-  Redness(std::span<const Segment> lips, float reach);
+  /// @param reach  BloodPlace::reach; 0: there is none.
+  LipBlood(std::span<const Segment> lips, float reach);
 
   /// A colour, linear RGB, as skin of this colour looks at a place. O(lips nearby).
-  [[nodiscard]] Vec3f reddened(const Vec3f& color, const Vec3f& place) const;
+  /// @param rest  BloodPlace::rest.
+  [[nodiscard]] Vec3f bloodied(const Vec3f& color, const Vec3f& place, const Vec3f& rest) const;
 
  private:
   /// Enters a piece of a lip in the cells around it.

@@ -1,13 +1,15 @@
-#include "tools/render/redness.h"
+#include "tools/render/lip_blood.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "tools/blood/blood_look.h"
+
 namespace sunder::tools {
 namespace {
 
-constexpr float kFarthest = 2;       ///< Where it ends, in reaches.
+constexpr float kFarthest = 1;       ///< Where it ends, in reaches.
 constexpr float kMostPieces = 4096;  ///< Of a lip.
 
 std::uint64_t key_of(const std::array<std::int64_t, 3>& cell) {
@@ -17,7 +19,7 @@ std::uint64_t key_of(const std::array<std::int64_t, 3>& cell) {
   return key;  // Equal keys of two cells cost time alone.
 }
 
-float squared_distance(const Redness::Segment& segment, const Vec3f& place) {
+float squared_distance(const LipBlood::Segment& segment, const Vec3f& place) {
   const Vec3f along = segment[1] - segment[0], offset = place - segment[0];
   const float length = along.squaredNorm();
   const float t = length > 0 ? std::clamp(along.dot(offset) / length, 0.0f, 1.0f) : 0.0f;
@@ -26,7 +28,7 @@ float squared_distance(const Redness::Segment& segment, const Vec3f& place) {
 
 }  // namespace
 
-Redness::Redness(std::span<const Segment> lips, float reach) : lips_(lips), reach_(reach) {
+LipBlood::LipBlood(std::span<const Segment> lips, float reach) : lips_(lips), reach_(reach) {
   if (!(reach > 0)) return;
   for (std::uint32_t i = 0; i < lips.size(); ++i) {
     // A long lip crosses few of the cells of its box: it is entered piece by piece.
@@ -38,7 +40,7 @@ Redness::Redness(std::span<const Segment> lips, float reach) : lips_(lips), reac
   }
 }
 
-void Redness::add(std::uint32_t lip, const Vec3f& begin, const Vec3f& end) {
+void LipBlood::add(std::uint32_t lip, const Vec3f& begin, const Vec3f& end) {
   const Vec3f margin = Vec3f::Constant(kFarthest * reach_);
   const auto least = cell_of(begin.cwiseMin(end) - margin),
              greatest = cell_of(begin.cwiseMax(end) + margin);
@@ -50,7 +52,7 @@ void Redness::add(std::uint32_t lip, const Vec3f& begin, const Vec3f& end) {
       }
 }
 
-std::array<std::int64_t, 3> Redness::cell_of(const Vec3f& place) const {
+std::array<std::int64_t, 3> LipBlood::cell_of(const Vec3f& place) const {
   std::array<std::int64_t, 3> cell;
   for (int i = 0; i < 3; ++i)
     cell[static_cast<std::size_t>(i)] =
@@ -58,16 +60,15 @@ std::array<std::int64_t, 3> Redness::cell_of(const Vec3f& place) const {
   return cell;
 }
 
-Vec3f Redness::reddened(const Vec3f& color, const Vec3f& place) const {
+Vec3f LipBlood::bloodied(const Vec3f& color, const Vec3f& place, const Vec3f& rest) const {
   if (near_.empty()) return color;
   const auto lips = near_.find(key_of(cell_of(place)));
   if (lips == near_.end()) return color;
   float nearest = std::numeric_limits<float>::max();
   for (const std::uint32_t i : lips->second)
     nearest = std::min(nearest, squared_distance(lips_[i], place));
-  const float share = 0.55f * std::exp(-nearest / (reach_ * reach_));
-  const Vec3f red = 0.35f * color + 0.25f * color.norm() * Vec3f(0.9f, 0.16f, 0.13f);
-  return color + share * (red - color);
+  return tools::bloodied(color, {static_cast<double>(std::sqrt(nearest)),
+                                 static_cast<double>(reach_), 0, rest.cast<double>()});
 }
 
 }  // namespace sunder::tools
