@@ -80,7 +80,7 @@ class PointIdentity {
 };
 
 /// The point of every vertex of every mesh.
-struct Weld {
+struct JoinedVertices {
   std::vector<std::vector<Index>> point_of_vertex;
   std::vector<Index> point_side;
   std::vector<bool> is_shared;  ///< Per point: it has vertices of two meshes.
@@ -115,7 +115,7 @@ class PointTable {
   std::vector<std::uint64_t> entries_;
 };
 
-Weld weld_vertices(const Character& character) {
+JoinedVertices weld_vertices(const Character& character) {
   struct VertexRef {
     Index mesh;
     Index vertex;
@@ -126,7 +126,7 @@ Weld weld_vertices(const Character& character) {
   std::vector<VertexRef> first_of_point;
 
   const PointIdentity identity(character);
-  Weld weld;
+  JoinedVertices weld;
   const auto add = [&](Index m, Index v, std::uint64_t hash) {
     const auto new_point = static_cast<Index>(first_of_point.size());
     const Index point = table.find_or_add(hash, new_point, [&](Index known) {
@@ -297,7 +297,7 @@ void for_each_corner(const Character& character, Visit visit) {
 
 /// The surface of each mesh as if it were alone, around the points that meshes share. Triangles
 /// elsewhere have a repeated point here, so that they join nothing.
-Surface surface_at_shared_points(const Character& character, const Weld& weld) {
+Surface surface_at_shared_points(const Character& character, const JoinedVertices& weld) {
   Surface surface;
   surface.source_side = weld.point_side;
   surface.first_triangle = {0};
@@ -335,7 +335,7 @@ Surface surface_at_shared_points(const Character& character, const Weld& weld) {
 }
 
 /// @param surface  of all meshes together.
-std::vector<Index> count_points_of_meshes(const Character& character, const Weld& weld,
+std::vector<Index> count_points_of_meshes(const Character& character, const JoinedVertices& weld,
                                           const Surface& surface) {
   std::vector<Index> counts(character.meshes.size(), 0);
   const bool do_share =
@@ -372,7 +372,8 @@ void mark_shared_vertices(const Character& character, Surface& surface) {
 
 /// Corners, twins and points; not which vertices are shared.
 /// @param point_side  of `weld`.
-Surface connect(const Character& character, const Weld& weld, std::vector<Index> point_side) {
+Surface connect(const Character& character, const JoinedVertices& weld,
+                std::vector<Index> point_side) {
   Surface surface;
   surface.source_side = std::move(point_side);
   surface.point_corner.assign(surface.source_side.size(), kNone);
@@ -401,7 +402,7 @@ Index Surface::find_half_edge(Index from, Index to) const {
 }
 
 Surface build_surface(const Character& character) {
-  Weld weld = weld_vertices(character);
+  JoinedVertices weld = weld_vertices(character);
   Surface surface = connect(character, weld, std::move(weld.point_side));
   mark_shared_vertices(character, surface);
   if (std::all_of(surface.source_side.begin(), surface.source_side.end(),
@@ -418,7 +419,7 @@ Surface build_surface(const Character& character) {
 }
 
 JoinedMeshes join_meshes(const Character& character) {
-  const Weld weld = weld_vertices(character);
+  const JoinedVertices weld = weld_vertices(character);
   JoinedMeshes joined{connect(character, weld, weld.point_side), {}};
   joined.points_of_mesh = count_points_of_meshes(character, weld, joined.surface);
   return joined;
