@@ -5,7 +5,7 @@
 import { createHash } from 'node:crypto';
 import { readFileSync } from 'node:fs';
 import { dirname, relative, resolve } from 'node:path';
-const EXTENSION = 'SUNDER_torn_mesh', SIDE = '_TEARSIDE', SIDES = [SIDE, '_FEATURE_ID_7353'], INFLUENCES = /^(JOINTS|WEIGHTS)_\d+$/;
+const EXTENSION = 'SUNDER_torn_mesh', SIDE = '_TEARSIDE', SCAR = '_SCAR', SIDES = [SIDE, '_FEATURE_ID_7353'], INFLUENCES = /^(JOINTS|WEIGHTS)_\d+$/;
 const HALF_ULP = 2 ** -24, WEIGHT_TOLERANCE = 2 ** -20, AREA_TOLERANCE = 2 ** -20, MOST_FAULTS = 50;
 const TYPES = { 5120: [Int8Array, 127], 5121: [Uint8Array, 255], 5122: [Int16Array, 32767], 5123: [Uint16Array, 65535], 5125: [Uint32Array], 5126: [Float32Array] }, SHAPES = { SCALAR: 1, VEC2: 2, VEC3: 3, VEC4: 4, MAT4: 16 };
 export class Unchecked extends Error {}  // the files do not allow a check
@@ -145,7 +145,7 @@ class TornMesh {  // the primitives of a torn file that share vertices
     });
   }
   checkAttributes(prefix, before, after) {
-    const isNew = ([name, now]) => !before.has(name) && !SIDES.includes(name) && !(INFLUENCES.test(name) && before.has('WEIGHTS_0')) && !(prefix && now.values.every((x) => x === 0));
+    const isNew = ([name, now]) => !before.has(name) && ![...SIDES, SCAR].includes(name) && !(INFLUENCES.test(name) && before.has('WEIGHTS_0')) && !(prefix && now.values.every((x) => x === 0));
     [...after].filter(isNew).forEach(([name]) => this.say(null, prefix + name, 'the source does not have it'));
     for (const [name, old] of [...before].filter(([name]) => !INFLUENCES.test(name) && !SIDES.includes(name))) {
       const now = after.get(name), isPosition = name === 'POSITION', isDirection = !prefix && (name === 'NORMAL' || name === 'TANGENT');

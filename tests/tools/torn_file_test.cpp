@@ -163,13 +163,35 @@ TEST_F(TornFile, is_proved_whatever_its_weights_and_lips_are) {
            {"--weights", "refit", "--weights-as", "u8", "--influences", "4"},
            {"--weights", "exact"},
            {"--open"},
-           {"--flesh", "source"}})
+           {"--flesh", "source"},
+           {"--weld", "all"}})
     for (const std::string& log : {all, weighed}) {
       const std::string result = torn(model(), log, "torn.glb", options);
       const Check check = check_torn(model(), result);
       EXPECT_EQ(check.exit_code, 0) << testing::PrintToString(options) << '\n'
                                     << check.output.substr(0, 2000);
     }
+}
+
+TEST_F(TornFile, marks_scars_and_says_when_there_is_nothing_to_weld) {
+  const std::string log = write("one.json", kOneTear);
+  const json welded = document_of(
+      torn(model(), log, "welded.glb", {"--weld", "all", "--save-log", path("w.json")}));
+  EXPECT_TRUE(first_recorded(welded)["attributes"].contains("_SCAR"));
+  EXPECT_FALSE(
+      first_recorded(document_of(torn(model(), log, "torn.glb")))["attributes"].contains("_SCAR"));
+  // The log that was saved does the same.
+  torn(model(), path("w.json"), "again.glb");
+  EXPECT_EQ(test::read_bytes(path("again.glb")), test::read_bytes(path("welded.glb")));
+  const CommandResult twice = run_sunder({"tear", model(), "--ops", log, "-o", path("twice.glb"),
+                                          "--weld", "all", "--weld", "0/1/0,reach=0.1"});
+  EXPECT_EQ(twice.exit_code, 1);
+  EXPECT_NE(twice.err.find("no lips lie on one another"), std::string::npos) << twice.err;
+  for (const char* bad : {"nowhere", "0/1", "0/1/0,reach=-1", "0/1/0,width=1", "all,reach=1"})
+    EXPECT_EQ(
+        run_sunder({"tear", model(), "--ops", log, "-o", path("bad.glb"), "--weld", bad}).exit_code,
+        2)
+        << bad;
 }
 
 TEST_F(TornFile, with_policies_tells_how_many_vertices_are_fitted) {
