@@ -31,9 +31,15 @@ void mark_scars(const TornModel& model, Character& character) {
       }
     }
     if (!has_any) continue;
-    std::erase_if(mesh.custom_attributes,
-                  [](const CustomAttribute& of) { return of.name == kScarAttribute; });
-    mesh.custom_attributes.push_back({kScarAttribute, 1, true, std::move(marks)});
+    const auto of_source = std::find_if(
+        mesh.custom_attributes.begin(), mesh.custom_attributes.end(),
+        [](const CustomAttribute& of) { return of.name == kScarAttribute && of.components == 1; });
+    if (of_source == mesh.custom_attributes.end()) {
+      mesh.custom_attributes.push_back({kScarAttribute, 1, true, std::move(marks)});
+      continue;
+    }
+    for (std::size_t v = 0; v < marks.size(); ++v)
+      of_source->values[v] = std::max(of_source->values[v], marks[v]);
   }
 }
 

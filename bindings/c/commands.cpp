@@ -197,6 +197,9 @@ sunder_status sunder_submit_weld(sunder_scene scene, sunder_instance instance,
     SUNDER_C_TRY(check_struct(weld, "weld"));
     sunder::Weld wanted;
     wanted.reach = weld->reach;
+    if (weld->places != nullptr && weld->place_count == 0)
+      return report(sunder::Status::failure(sunder::StatusCode::invalid_argument, sunder::kNone,
+                                            "places of the weld are none; null means all wounds"));
     SUNDER_C_TRY(read_places(weld->places, weld->place_count, "places", wanted.places));
     return submit(scene, instance, std::move(wanted), flags, command);
   });

@@ -49,6 +49,7 @@ class Wounds {
   void mark(const Vec3d& from, double reach, ScratchVector<bool>& is_chosen) const {
     const Index first = nearest(from);
     if (first == kNone) return;
+    const ScratchMemory::Frame memory_of_step(work_.editor.scratch());
     ScratchVector<double> ways(lips_.size(), kFar, &work_.editor.scratch());
     std::priority_queue<Reached, ScratchVector<Reached>, std::greater<>> queue(
         std::greater<>(), ScratchVector<Reached>(&work_.editor.scratch()));

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "tear/surface/disjoint_sets.h"
+#include "tear/surface/index_map.h"
 
 namespace sunder::tear {
 namespace {
@@ -79,18 +80,16 @@ bool contains(const ScratchVector<Index>& ascending, Index face) {
 void find_loose(Index start, const ScratchVector<Index>& going, const FillingsInOrder& fillings,
                 const SurfaceEditor& editor, ScratchVector<Index>& loose) {
   const Surface& surface = editor.surface();
-  ScratchVector<Index> faces(&editor.scratch()), known(&editor.scratch());
+  ScratchVector<Index> faces(&editor.scratch());
+  IndexMap known(8, editor.scratch());
   faces.push_back(start);
-  known.push_back(start);
+  known.insert(start, 0);
   for (std::size_t next = 0; next < faces.size(); ++next)
     for (Index h = 3 * faces[next]; h < 3 * faces[next] + 3; ++h) {
       const Index other = surface.twin[h] == kNone ? kNone : surface.twin[h] / 3;
       if (other == kNone || contains(going, other)) continue;
       if (!fillings.is_filling(surface.triangle(other))) return;
-      const auto at = std::lower_bound(known.begin(), known.end(), other);
-      if (at != known.end() && *at == other) continue;
-      known.insert(at, other);
-      faces.push_back(other);
+      if (known.insert(other, 0) == kNone) faces.push_back(other);
     }
   loose.insert(loose.end(), faces.begin(), faces.end());
 }
@@ -123,12 +122,15 @@ ScratchVector<Index> fillings_at_lips(std::span<const Index> half_edges,
   const Surface& surface = editor.surface();
   const FillingsInOrder fillings(editor);
   ScratchVector<Index> faces(&editor.scratch());
+  IndexMap known(half_edges.size(), editor.scratch());  // of caps
   for (const Index h : half_edges) {
     if (surface.twin[h] == kNone) continue;
     const TriangleRef of = surface.triangle(surface.twin[h] / 3);
     if (!editor.fillings.is_wall(of)) {
-      if (std::find(faces.begin(), faces.end(), surface.twin[h] / 3) == faces.end())
-        add_cap(of, editor, faces);
+      if (known.find(surface.twin[h] / 3) != kNone) continue;
+      const std::size_t before = faces.size();
+      add_cap(of, editor, faces);
+      for (std::size_t i = before; i < faces.size(); ++i) known.insert(faces[i], 0);
       continue;
     }
     for (Index origin = of.source_triangle, end = fillings.end_of_part(of); origin < end; ++origin)

@@ -41,6 +41,34 @@ bool lie_on_one_another(const Lip& a, const Lip& b) {
   return (high - low) * size > 2 * kWeldBarycentric;
 }
 
+double low_end(const Lip& lip) { return std::min(lip.from[0], lip.to[0]); }
+double high_end(const Lip& lip) { return std::max(lip.from[0], lip.to[0]); }
+
+/// Lips of a line without a partner, by their low ends.
+ScratchVector<std::size_t> without_partner(std::span<const Lip> lips, std::size_t begin,
+                                           std::size_t end, const ScratchVector<bool>& has_partner,
+                                           ScratchMemory& scratch) {
+  ScratchVector<std::size_t> left(&scratch);
+  for (std::size_t i = begin; i < end; ++i)
+    if (!has_partner[i]) left.push_back(i);
+  std::sort(left.begin(), left.end(), [&](std::size_t i, std::size_t k) {
+    const double a = low_end(lips[i]), b = low_end(lips[k]);
+    return a != b ? a < b : i < k;
+  });
+  return left;
+}
+
+/// Calls visit(lip, other) for pairs whose first coordinates overlap.
+template <class Visit>
+void for_each_near_pair(std::span<const Lip> lips, const ScratchVector<std::size_t>& by_low_end,
+                        Visit visit) {
+  for (std::size_t n = 0; n < by_low_end.size(); ++n) {
+    const double high = high_end(lips[by_low_end[n]]) + kWeldBarycentric;
+    for (std::size_t m = n + 1; m < by_low_end.size() && low_end(lips[by_low_end[m]]) <= high; ++m)
+      visit(by_low_end[n], by_low_end[m]);
+  }
+}
+
 /// The lip with exactly the ends of another one, in reverse; `end` if there is none.
 std::size_t find_exact_partner(std::span<const Lip> lips, std::size_t of, std::size_t begin,
                                std::size_t end) {
@@ -86,15 +114,18 @@ ScratchVector<LipOverlap> find_overlaps(std::span<const Lip> lips, ScratchMemory
       const std::size_t partner = find_exact_partner(lips, i, begin, end);
       if (partner < end && partner > i && !has_partner[partner]) add(i, partner, true);
     }
-    // What is left was crossed by other wounds: few.
-    for (std::size_t i = begin; i < end; ++i)
-      for (std::size_t k = i + 1; k < end && !has_partner[i]; ++k)
-        if (!has_partner[k] && is_one_place_on_line(lips[i].from, lips[k].to) &&
-            is_one_place_on_line(lips[i].to, lips[k].from))
-          add(i, k, true);
-    for (std::size_t i = begin; i < end; ++i)
-      for (std::size_t k = i + 1; k < end && !has_partner[i]; ++k)
-        if (!has_partner[k] && lie_on_one_another(lips[i], lips[k])) add(i, k, false);
+    // What is left was crossed by other wounds, or is of a gap.
+    const ScratchVector<std::size_t> left = without_partner(lips, begin, end, has_partner, scratch);
+    for_each_near_pair(lips, left, [&](std::size_t i, std::size_t k) {
+      if (!has_partner[i] && !has_partner[k] && is_one_place_on_line(lips[i].from, lips[k].to) &&
+          is_one_place_on_line(lips[i].to, lips[k].from))
+        add(std::min(i, k), std::max(i, k), true);
+    });
+    for_each_near_pair(lips, left, [&](std::size_t i, std::size_t k) {
+      if (!has_partner[i] && !has_partner[k] &&
+          lie_on_one_another(lips[std::min(i, k)], lips[std::max(i, k)]))
+        add(std::min(i, k), std::max(i, k), false);
+    });
   }
   std::sort(found.begin(), found.end(), [](const LipOverlap& a, const LipOverlap& b) {
     return std::array{a.a, a.b} < std::array{b.a, b.b};

@@ -245,6 +245,10 @@ std::vector<std::string> missing_from_picture(const std::vector<NumberedOperatio
       missing.push_back(name + " has no place: it assigns weights");
       continue;
     }
+    if (std::holds_alternative<WeldOperation>(*logged.operation) && !has_place(*logged.operation)) {
+      missing.push_back(name + " has no place: it closes all wounds");
+      continue;
+    }
     if (!has_place(*logged.operation)) {
       missing.push_back(name + " has no place: it names a piece by a triangle");
       continue;

@@ -52,11 +52,11 @@ namespace Sunder
 
     /// <summary>Closes wounds whose lips lie on one another. places: only the wound nearest to each, and no farther along it
     /// than reach; 0: to its ends.</summary>
-    public Command CloseWounds(Vector3d[] places = null, double reach = 0, SubmitFlags flags = SubmitFlags.None)
+    public Command Weld(Vector3d[] places = null, double reach = 0, SubmitFlags flags = SubmitFlags.None)
     {
       Library.CheckNotEmpty(places, "places");
       ulong id;
-      Weld weld = Weld.Default;
+      global::Sunder.Weld weld = global::Sunder.Weld.Default;
       fixed (Vector3d* first = places)
       {
         weld.Places = (double*)first;

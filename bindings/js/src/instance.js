@@ -13,7 +13,10 @@ const contactOf = ({ has_hit, contact }) => (has_hit ? namesOf(contact) : null);
 const flagsOf = (background) => (background ? SUNDER_IN_BACKGROUND : 0);
 
 /** The numbers of points, one after the other. */
-const flat = (points, what) => Float64Array.from(points.flatMap((point) => [...triple(point, what)]));
+const flat = (points, what) => {
+  if (points.length === 0) throw invalidArgument(`${what} are empty; without them there is no such limit`);
+  return Float64Array.from(points.flatMap((point) => [...triple(point, what)]));
+};
 
 export class Instance {
   #scene;

@@ -294,6 +294,8 @@ class Instance:
         raw = abi.new('weld', reach=reach)
         if places is not None:
             kept = doubles(places, -1, 3)
+            if len(kept) == 0:
+                raise ValueError('places are empty; None closes all wounds')
             raw.places, raw.place_count = pointer_to(kept), len(kept)
         return self._submit('weld', ctypes.byref(raw), int(in_background))
 
