@@ -60,6 +60,14 @@ namespace Sunder.Tests
       Instance again = scene.Spawn(instance.Asset);
       Expect.Equal(again.ApplyLog(log), 3, "operations of the log");
       Expect.Equal(again.Digest, instance.Digest, "replayed");
+      Instance whole = scene.Spawn(instance.Asset);
+      whole.Cut(cut, null, new[] { new Vector3d(0, 0.5, 0) });
+      scene.Update(0);
+      ulong severed = whole.Digest;
+      command = whole.Weld(new[] { new Vector3d(0, 0.5, 0) });
+      scene.Update(0);
+      Expect.That(command.Result.Runs > 0 && whole.Digest != severed, "a weld");
+      Expect.Throws<ArgumentException>(() => whole.Weld(new Vector3d[0]), "no places");
       Detachment detachment = Detachment.Default;
       detachment.Point = new Vector3d(0, 3, 0);
       command = instance.Detach(detachment);

@@ -69,6 +69,30 @@ test('undo and redo go there and back, a log and a file make the same model agai
   assert.ok(saved.mesh(0).submeshes.length > model.mesh(0).submeshes.length);
 });
 
+test('a weld closes a wound, a bit of it or all, and can be undone', async () => {
+  const { model, scene, it } = await tube();
+  it.tear(FRONT_STROKE);
+  const [torn] = scene.update(0);
+  const open = it.digest;
+  it.weld({ places: [FRONT_STROKE[0][1]], reach: 0.1 });
+  const [bit] = scene.update(0);
+  assert.ok(bit.error === null && bit.length > 0 && bit.length < 0.9 * torn.length, `${bit.length} of ${torn.length}`);
+  it.weld();
+  const [rest] = scene.update(0);
+  assert.ok(Math.abs(bit.length + rest.length - torn.length) < 0.02 * torn.length, `${rest.length}`);
+  const closed = it.digest, other = scene.spawn(model);
+  assert.equal(other.applyLog(it.log), 3);
+  assert.equal(other.digest, closed);
+  it.undo();
+  it.undo();
+  scene.update(0);
+  assert.equal(it.digest, open);
+  assert.throws(() => it.weld({ places: [] }), { code: 'invalid_argument' });
+  it.weld({ places: [[0, NaN, 0]] });
+  assert.equal(scene.update(0)[0].error.code, 'non_finite_value');
+  assert.equal(it.digest, open);
+});
+
 test('a cut severs, a detach takes the piece off, which is a model with mass', async () => {
   const { scene, it } = await tube();
   it.cut({ point: [0, 1.2, 0], normal: { x: 0, y: 1, z: 0 }, caps: true });

@@ -64,6 +64,29 @@ def test_a_stroke_over_frames_tears_while_the_clip_plays(tube):
     assert instance.digest != 0
 
 
+def test_a_weld_closes_a_wound(tube):
+    scene = sunder_tear.Scene()
+    instance = scene.spawn(tube)
+    scene.update()
+    torn = instance.tear(random_blades(instance.posed().positions, np.random.default_rng(3), 8))
+    scene.update()
+    open_digest = instance.digest
+    bad = instance.weld([[0, float('nan'), 0]])
+    scene.update()
+    with pytest.raises(sunder_tear.SunderError):
+        bad.result
+    with pytest.raises(ValueError):
+        instance.weld(np.zeros((0, 3)))
+    welded = instance.weld()
+    scene.update()
+    assert welded.result.runs > 0 and welded.result.blocked == 0
+    assert welded.result.length_posed == pytest.approx(torn.result.length_posed, rel=0.02)
+    assert '"weld"' in instance.log and instance.digest != open_digest
+    instance.undo()
+    scene.update()
+    assert instance.digest == open_digest
+
+
 def test_tissue_gapes_and_comes_to_rest(soft):
     scene, instance = soft
     before = instance.posed().positions
