@@ -249,6 +249,8 @@ void print_perforation() {
   std::printf(
       "A slit that runs on along a wavy perforation: %.2g m from it at most, %.1f %% of it torn\n",
       of.follow, 100 * of.length);
+  std::printf("A step with lips pressed together, with self-contact / without: %.2f\n",
+              measure_self_contact_ratio());
 }
 
 void print_oracle(const std::vector<OracleCase>& cases) {

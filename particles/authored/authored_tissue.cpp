@@ -31,7 +31,7 @@ Status check_field(const Mesh& mesh, const particles::FactorField& field,
   return {};
 }
 
-Status check_place(const Character& character, const SurfacePlace& place, Index perforation,
+Status check_place(const Character& character, const SourcePlace& place, Index perforation,
                    std::size_t at) {
   if (place.mesh >= character.meshes.size())
     return Status::failure(StatusCode::index_out_of_range, perforation,

@@ -17,7 +17,7 @@ constexpr double kJoinsWithin = 2.0;
 /// A course shorter than this part of the wanted length is at the end of its line.
 constexpr double kLeastCoursePart = 0.05;
 
-Vec3d place_of(const Structure& structure, const TornModel& model, const SurfacePlace& of) {
+Vec3d place_of(const Structure& structure, const TornModel& model, const SourcePlace& of) {
   const Mesh& mesh = model.character().meshes[of.mesh];
   const Triangle& triangle = model.source().meshes[of.mesh].triangles[of.triangle];
   Vec3d sum = Vec3d::Zero();
@@ -48,7 +48,7 @@ Perforations::Perforations(const ParticleSet& set, const TornModel& model) {
     line.strength = perforation.strength;
     line.is_closed = perforation.line.front() == perforation.line.back();
     double arc = 0;
-    for (const SurfacePlace& of : perforation.line) {
+    for (const SourcePlace& of : perforation.line) {
       const Vec3d at = place_of(structure, model, of);
       if (!line.at.empty()) arc += norm(Vec3d(at - line.at.back()));
       line.at.push_back(at);
@@ -140,7 +140,7 @@ std::vector<std::pair<Vec3d, Vec3d>> Perforations::posed(const Course& course,
                                                          const SurfacePose& pose) const {
   const Line& line = lines_[course.line];
   const auto at = [&](std::size_t i) {
-    const SurfacePlace& of = line.places[i];
+    const SourcePlace& of = line.places[i];
     const Triangle& triangle = model.source().meshes[of.mesh].triangles[of.triangle];
     std::array<Vec3d, 3> corners;
     for (std::size_t k = 0; k < 3; ++k)

@@ -50,7 +50,7 @@ class Perforations {
 
  private:
   struct Line {
-    std::span<const SurfacePlace> places;
+    std::span<const SourcePlace> places;
     std::vector<Vec3d> at;
     std::vector<double> arcs;  ///< From the first place, per place.
     double strength = 1;

@@ -30,18 +30,18 @@ struct TissueFactors {
 };
 
 /// A place on the source's surface.
-struct SurfacePlace {
+struct SourcePlace {
   std::uint32_t mesh = 0, triangle = 0;
   std::array<double, 3> barycentric = {1.0, 0.0, 0.0};  ///< Per corner; >= 0, sum 1 within 1e-6.
 
-  bool operator==(const SurfacePlace&) const = default;
+  bool operator==(const SourcePlace&) const = default;
 };
 
 /// A line along which tissue is weaker, such as the holes between stamps. Tearing by force runs
 /// along it where that takes less: see tear_overstretched().
 struct Perforation {
   /// At least two places, straight in between. It is closed if the last is the first.
-  std::vector<SurfacePlace> line;
+  std::vector<SourcePlace> line;
   double strength = 0.3;  ///< Of the toughness and of the strain that is borne. [0.001, 1].
 
   bool operator==(const Perforation&) const = default;
