@@ -94,6 +94,9 @@ constexpr const char* kHelp =
     "that "
     "runs\n"
     "                          along it, range 0.1 m, cells of 0.01 m\n"
+    "  self_contact_ratio      a step in which lips are pressed together, all particles awake, "
+    "with\n"
+    "                          self-contact / without\n"
     "  vs_nanoflann            bunny_decompose_ms / nanoflann's time for its tree and clusters;\n"
     "                          null if it is not built\n";
 
@@ -246,6 +249,8 @@ void print_perforation() {
   std::printf(
       "A slit that runs on along a wavy perforation: %.2g m from it at most, %.1f %% of it torn\n",
       of.follow, 100 * of.length);
+  std::printf("A step with lips pressed together, with self-contact / without: %.2f\n",
+              measure_self_contact_ratio());
 }
 
 void print_oracle(const std::vector<OracleCase>& cases) {
@@ -339,6 +344,7 @@ void print_summary() {
   add_gaps(object);
   object.add("field_gap_error", field_gap_error());
   object.add("perforation_follow_m", measure_perforation().follow);
+  object.add("self_contact_ratio", measure_self_contact_ratio());
   object.add("vs_nanoflann", bunny.vs_nanoflann());
   object.end();
 }

@@ -324,6 +324,8 @@ typedef struct sunder_material {
   double strength;           /* stretch at which tissue tears, > 1, or 0: never */
   double toughness;          /* J/m, [0, 1e12] */
   double flaw_length;        /* metres, [1e-9, 1e12] */
+  double yield_stretch;      /* beyond which tissue keeps its stretch, > 1, or 0: never */
+  double plastic_limit;      /* greatest strain that it keeps, [0, 1e3] */
 } sunder_material;
 
 SUNDER_C_API sunder_material sunder_default_material(void);
@@ -347,6 +349,39 @@ enum {
   SUNDER_WEIGHTS_OF_MODEL = -1 /* in operations: those of the asset */
 };
 
+/* Fields of tissue: factors of its material, per vertex. */
+enum {
+  SUNDER_FIELD_STRENGTH = 0,
+  SUNDER_FIELD_TOUGHNESS = 1,
+  SUNDER_FIELD_STIFFNESS = 2,
+  SUNDER_FIELD_TENSION = 3,
+  SUNDER_FIELD_THICKNESS = 4
+};
+
+/* One field of one mesh. Factors are from 0.001, of the tension from 0, to 1000. */
+typedef struct sunder_tissue_field {
+  uint32_t struct_size;
+  uint32_t mesh;
+  uint32_t field;       /* SUNDER_FIELD_... */
+  uint32_t value_count; /* the vertices of the mesh */
+  const float* values;
+} sunder_tissue_field;
+
+/* A place on the source's surface. */
+typedef struct sunder_surface_place {
+  uint32_t mesh;
+  uint32_t triangle;
+  double barycentric[3]; /* per corner; >= 0, sum 1 */
+} sunder_surface_place;
+
+/* A line along which tissue is weaker, as between stamps. */
+typedef struct sunder_perforation {
+  uint32_t struct_size;
+  uint32_t place_count; /* at least two; straight in between; closed if the last is the first */
+  const sunder_surface_place* places;
+  double strength; /* of the toughness, and of the strain that is borne; [0.001, 1] */
+} sunder_perforation;
+
 typedef struct sunder_asset_options {
   uint32_t struct_size;
   uint32_t is_soft;        /* 1: soft tissue; the fields below that speak of it count */
@@ -367,6 +402,12 @@ typedef struct sunder_asset_options {
   uint32_t adds_pose_strain;        /* 1: stretched tissue pulls more at its lips */
   uint32_t material_count;          /* 0: one material of the defaults */
   const sunder_material* materials; /* all particles start with the first */
+  uint32_t field_count;             /* 0: all factors are 1 */
+  uint32_t perforation_count;
+  const sunder_tissue_field* fields;
+  const sunder_perforation* perforations;
+  double self_contact_thickness; /* metres; 0: lips and flaps pass through one another */
+  double self_contact_friction;
 } sunder_asset_options;
 
 /* Triangles of an index buffer that one draw call draws. */
@@ -945,6 +986,8 @@ typedef struct sunder_force_tearing_options {
   uint32_t reserved;
   double length; /* as a fraction of the particles' range, in (0, 2] */
   double metres; /* > 0; for instance a speed times the time since the last call */
+  double metres_per_second; /* greatest speed; 0: any */
+  double least_piece_area;  /* m^2 in the pose: tears that would cut off less are not made */
 } sunder_force_tearing_options;
 
 /* What the tissue bears, and where it gave way. */

@@ -32,9 +32,10 @@ std::size_t bytes_of(const StepScratch& scratch) {
 
 std::size_t BodyState::memory_bytes() const {
   return sizeof(BodyState) + bytes_of(materials) + bytes_of(motion) + bytes_of(graph.first) +
-         bytes_of(graph.local) + bytes_of(graph.springs) + bytes_of(graph.masses) +
-         bytes_of(graph.rates) + rests.memory_bytes() + outer.of_pose.memory_bytes() +
-         solver.memory_bytes() + contact.memory_bytes() + bytes_of(shown) + bytes_of(scratch);
+         scratch.self_contact.memory_bytes() + bytes_of(graph.local) + bytes_of(graph.springs) +
+         bytes_of(graph.masses) + bytes_of(graph.rates) + rests.memory_bytes() +
+         outer.of_pose.memory_bytes() + solver.memory_bytes() + contact.memory_bytes() +
+         bytes_of(shown) + bytes_of(scratch);
 }
 
 }  // namespace sunder::particles

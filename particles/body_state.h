@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "particles/contact/contact.h"
+#include "particles/contact/self_contact.h"
 #include "particles/motion/coupling.h"
 #include "particles/motion/hold_list.h"
 #include "particles/motion/motion.h"
@@ -47,6 +48,7 @@ struct StepScratch {
   std::vector<Vec3d> sums;
   std::vector<Vec3d> corrections;  ///< Per particle: by neighbours and holds.
   std::vector<SpringStep> steps;
+  particles::SelfContact self_contact;  ///< It keeps nothing but what follows from the set.
 };
 
 /// The data of a SoftBody.

@@ -37,8 +37,10 @@ bool BodyState::is_still() const {
 void BodyState::find_needed() {
   std::vector<Index>& needed = scratch.needed;
   needed.clear();
-  const bool sees_all = options.follow == Follow::lag || options.tracks_rest || outer.wind ||
-                        !contact.colliders().empty();
+  const bool sees_all =
+      options.follow == Follow::lag || options.tracks_rest || outer.wind ||
+      !contact.colliders().empty() ||
+      (options.self_contact.thickness > 0 && !set->lips().empty() && motion.awake_count > 0);
   if (sees_all) {
     needed.resize(motion.count());
     std::iota(needed.begin(), needed.end(), Index{0});
@@ -197,7 +199,9 @@ void BodyState::step(const TornModel& model, const ModelPose& pose, bool is_pose
     if (can_yield()) flow({*set, graph, materials, rests}, active, motion);
     if (has_stretch_limit()) limit_stretch({graph, rests, active}, motion, scratch.changed);
   }
-  contact.push_out({*set, model, pose, is_posed, graph, rests, poses, seconds}, motion);
+  const Contact::World around = {*set, model, pose, is_posed, graph, rests, poses, seconds};
+  scratch.self_contact.push_apart(options.self_contact, around, motion);
+  contact.push_out(around, motion);
   contact.end_step();
   if (seconds > 0) {
     find_active();  // contacts may have roused some

@@ -4,10 +4,12 @@
 #include <sunder/skinning/pose.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
 
+#include "bench/harness/measure.h"
 #include "support/models/rigs.h"
 #include "support/oracles/membrane.h"
 
@@ -165,6 +167,35 @@ PerforationFigures measure_perforation() {
   }
   figures.length = lips / length_of(line);
   return figures;
+}
+
+double measure_self_contact_ratio() {
+  const auto character = std::make_shared<const Character>(test::make_sheet(100));
+  const ModelPose pose = *bind_pose(*character);
+  TornModel model = *TornModel::create(character);
+  ParticleSet set = *ParticleSet::create(model, pose, {0.05, false});
+  const SoftMaterial material;
+  SoftBodyOptions touching;
+  touching.self_contact = {0.005, 0.3};
+  SoftBody plain = *SoftBody::create(set, pose, {&material, 1});
+  SoftBody pressed = *SoftBody::create(set, pose, {&material, 1}, touching);
+  const Stroke stroke = {test::down_at(0.3, 0.503), test::down_at(0.7, 0.503)};
+  ChangeRecord change;
+  if (!model.tear(pose, stroke, {}, &change) || !set.follow(model, {&change, 1})) std::exit(1);
+  while (set.settle(model, 100000)) continue;
+  std::array<std::vector<double>, 2> seconds;
+  for (int i = 0; i < 200; ++i)
+    for (SoftBody* body : {&plain, &pressed}) {
+      if (!body->step(model, pose, 0)) std::exit(1);
+      for (std::uint32_t p = 0; p < set.particle_count(); ++p) {
+        const double to = set.positions()[set.seed(p)].y() > 0.503f ? -1 : 1;
+        // A changing force keeps all awake.
+        if (!body->set_force(p, Vec3d(0, (6 + 0.1 * (i % 2)) * to * set.area(p), 0))) std::exit(1);
+      }
+      seconds[body == &plain ? 0 : 1].push_back(
+          seconds_of([&] { (void)body->step(model, pose, 1.0 / 60); }));
+    }
+  return median(seconds[1]) / median(seconds[0]);
 }
 
 std::vector<FieldFigures> measure_fields() {

@@ -29,4 +29,7 @@ struct PerforationFigures {
 };
 [[nodiscard]] PerforationFigures measure_perforation();
 
+/// The duration of a step in which lips are pressed together, with self-contact by that without.
+[[nodiscard]] double measure_self_contact_ratio();
+
 }  // namespace sunder::bench

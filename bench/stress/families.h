@@ -40,6 +40,6 @@ CaseFunction many_cuts, one_region, welded_wounds;
 // Limits of memory and size (limit_cases.cpp).
 CaseFunction every_capacity, failing_allocations, vertex_counts;
 // Weights, tissue, scenes, files (weight_cases.cpp, tissue_cases.cpp, …).
-CaseFunction singular_refits, moving_tissue, busy_scenes, models_in_files;
+CaseFunction singular_refits, moving_tissue, authored_tissue, busy_scenes, models_in_files;
 
 }  // namespace sunder::stress

@@ -1,5 +1,6 @@
 #include "bindings/c/asset.h"
 
+#include <array>
 #include <utility>
 
 #include "bindings/c/structs.h"
@@ -19,8 +20,53 @@ Result<std::optional<WeightOptions>> weights_of(std::int32_t policy,
 
 namespace {
 
+sunder_status read_field(const sunder_tissue_field& from, AuthoredTissue& tissue) {
+  SUNDER_C_TRY(check_struct(&from, "fields[]"));
+  SUNDER_C_TRY(check_enum(from.field, SUNDER_FIELD_THICKNESS, "field"));
+  if (from.values == nullptr) return null_pointer("fields[].values");
+  if (from.mesh >= tissue.meshes.size())
+    return fail(SUNDER_INDEX_OUT_OF_RANGE, from.mesh,
+                "`fields[].mesh` is %u; the character has %zu meshes", from.mesh,
+                tissue.meshes.size());
+  constexpr std::array fields = {&TissueFactors::strength, &TissueFactors::toughness,
+                                 &TissueFactors::stiffness, &TissueFactors::tension,
+                                 &TissueFactors::thickness};
+  (tissue.meshes[from.mesh].*fields[from.field])
+      .assign(from.values, from.values + from.value_count);
+  return SUNDER_OK;
+}
+
+sunder_status read_perforation(const sunder_perforation& from, AuthoredTissue& tissue) {
+  SUNDER_C_TRY(check_struct(&from, "perforations[]"));
+  if (from.places == nullptr) return null_pointer("perforations[].places");
+  Perforation& made = tissue.perforations.emplace_back();
+  made.strength = from.strength;
+  for (std::uint32_t i = 0; i < from.place_count; ++i) {
+    const sunder_surface_place& at = from.places[i];
+    made.line.push_back(
+        {at.mesh, at.triangle, {at.barycentric[0], at.barycentric[1], at.barycentric[2]}});
+  }
+  return SUNDER_OK;
+}
+
+sunder_status read_authored(const sunder_asset_options& from, std::size_t mesh_count,
+                            AuthoredTissue& tissue) {
+  if (from.field_count > 0 && from.fields == nullptr) return null_pointer("fields");
+  if (from.perforation_count > 0 && from.perforations == nullptr)
+    return null_pointer("perforations");
+  if (from.field_count > 0) tissue.meshes.resize(mesh_count);
+  for (std::uint32_t i = 0; i < from.field_count; ++i)
+    SUNDER_C_TRY(read_field(from.fields[i], tissue));
+  for (std::uint32_t i = 0; i < from.perforation_count; ++i)
+    SUNDER_C_TRY(read_perforation(from.perforations[i], tissue));
+  return SUNDER_OK;
+}
+
 /// @return a failure of a material.
-sunder_status read_tissue(const sunder_asset_options& from, SoftTissue& tissue) {
+sunder_status read_tissue(const sunder_asset_options& from, std::size_t mesh_count,
+                          SoftTissue& tissue) {
+  SUNDER_C_TRY(read_authored(from, mesh_count, tissue.authored));
+  tissue.body.self_contact = {from.self_contact_thickness, from.self_contact_friction};
   if (from.material_count > 0) {
     if (from.materials == nullptr) return null_pointer("materials");
     tissue.materials.clear();
@@ -38,8 +84,9 @@ sunder_status read_tissue(const sunder_asset_options& from, SoftTissue& tissue) 
   return SUNDER_OK;
 }
 
-sunder_status read_options(const sunder_asset_options& from, CharacterAssetOptions& options) {
-  if (from.is_soft != 0) SUNDER_C_TRY(read_tissue(from, options.soft.emplace()));
+sunder_status read_options(const sunder_asset_options& from, std::size_t mesh_count,
+                           CharacterAssetOptions& options) {
+  if (from.is_soft != 0) SUNDER_C_TRY(read_tissue(from, mesh_count, options.soft.emplace()));
   const auto weights = weights_of(from.weight_policy, from.maximum_influences);
   if (!weights) return report(weights.error());
   if (*weights) options.weights = **weights;
@@ -83,7 +130,8 @@ sunder_status sunder_create_asset(sunder_character character, const sunder_asset
     SUNDER_C_TRY(check_options(options, "options"));
     if (asset == nullptr) return null_pointer("asset");
     sunder::CharacterAssetOptions wanted;
-    if (options != nullptr) SUNDER_C_TRY(read_options(*options, wanted));
+    if (options != nullptr)
+      SUNDER_C_TRY(read_options(*options, object->parts->loaded.character->meshes.size(), wanted));
     auto created = sunder::CharacterAsset::create(object->parts->loaded.character, wanted);
     if (!created) return report(created.error());
     auto added = std::make_unique<AssetObject>();

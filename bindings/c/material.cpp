@@ -19,6 +19,8 @@ void copy_fields(const From& from, To& to) {
   to.strength = from.strength;
   to.toughness = from.toughness;
   to.flaw_length = from.flaw_length;
+  to.yield_stretch = from.yield_stretch;
+  to.plastic_limit = from.plastic_limit;
 }
 
 sunder_material material_of(const SoftMaterial& from) {

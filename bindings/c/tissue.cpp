@@ -57,7 +57,7 @@ extern "C" {
 
 sunder_force_tearing_options sunder_default_force_tearing_options(void) {
   const sunder::ForceTearingOptions defaults;
-  return {sizeof(sunder_force_tearing_options), 0, defaults.length, defaults.metres};
+  return {sizeof(sunder_force_tearing_options), 0, defaults.length, defaults.metres, 0, 0};
 }
 
 sunder_status sunder_get_tissue(sunder_scene scene, sunder_instance instance,
@@ -152,7 +152,12 @@ sunder_status sunder_tear_overstretched(sunder_scene scene, sunder_instance inst
     SUNDER_C_TRY(check_options(options, "options"));
     SUNDER_C_TRY(check_struct(found, "found"));
     sunder::ForceTearingOptions limits;
-    if (options != nullptr) limits = {options->length, options->metres};
+    if (options != nullptr) {
+      limits.length = options->length;
+      limits.metres = options->metres;
+      if (options->metres_per_second != 0) limits.metres_per_second = options->metres_per_second;
+      limits.least_piece_area = options->least_piece_area;
+    }
     const auto torn = of.instance->tear_overstretched(limits);
     if (!torn) return report(torn.error());
     *found = {sizeof *found,

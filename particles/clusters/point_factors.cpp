@@ -10,19 +10,19 @@ namespace {
 constexpr double kLeastDensity = 1e-12, kMostOfMaterial = 1e12;
 
 /// A place in a triangle of the source.
-struct SourcePlace {
+struct VertexBlend {
   Triangle vertices = {};
   std::array<double, 3> barycentric = {1, 0, 0};
 };
 
 /// Where a vertex came from. One within a wall or cap is given to the nearest corner of the
 /// triangle in which it was born, and so on, because walls and caps belong to their rims.
-std::optional<SourcePlace> source_place(const TornModel& model, Index mesh, Index vertex) {
+std::optional<VertexBlend> source_place(const TornModel& model, Index mesh, Index vertex) {
   const Mesh& source = model.source().meshes[mesh];
   while (vertex >= source.vertex_count()) {
     const Birth birth = model.birth(mesh, vertex);
     if (birth.triangle < source.triangle_count())
-      return SourcePlace{source.triangles[birth.triangle], birth.barycentric};
+      return VertexBlend{source.triangles[birth.triangle], birth.barycentric};
     const auto nearest = std::max_element(birth.barycentric.begin(), birth.barycentric.end());
     const Triangle& filling =
         model.fillings(mesh)[birth.triangle - std::size_t{source.triangle_count()}];
@@ -30,11 +30,11 @@ std::optional<SourcePlace> source_place(const TornModel& model, Index mesh, Inde
     if (older >= vertex) return {};
     vertex = older;
   }
-  return SourcePlace{{vertex, vertex, vertex}, {1, 0, 0}};
+  return VertexBlend{{vertex, vertex, vertex}, {1, 0, 0}};
 }
 
 /// Equal values stay what they are, because the sum is rounded to less.
-float mean(const std::vector<float>& values, const SourcePlace& place) {
+float mean(const std::vector<float>& values, const VertexBlend& place) {
   if (values.empty()) return 1;
   double sum = 0;
   for (std::size_t k = 0; k < 3; ++k)
@@ -68,7 +68,7 @@ SoftMaterial with_factors(const SoftMaterial& of, const PointFactors& factors) {
 
 PointFactors AuthoredPoints::at(const TornModel& model, Index mesh, Index vertex) const {
   if (vertex == kNone) return {};
-  const std::optional<SourcePlace> place = source_place(model, mesh, vertex);
+  const std::optional<VertexBlend> place = source_place(model, mesh, vertex);
   if (!place) return {};
   const TissueFactors& of = tissue->meshes[mesh];
   return {mean(of.strength, *place), mean(of.toughness, *place), mean(of.stiffness, *place),

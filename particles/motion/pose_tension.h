@@ -4,6 +4,7 @@
 #include <sunder/particles/particle_set.h>
 
 #include "particles/clusters/surface_pose.h"
+#include "particles/motion/spring_graph.h"
 
 namespace sunder::particles {
 

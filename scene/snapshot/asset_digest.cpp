@@ -58,7 +58,7 @@ void add(const AuthoredTissue& tissue, Digest& digest) {
       digest.add(*field);
   for (const Perforation& perforation : tissue.perforations) {
     digest.add(perforation.strength);
-    for (const SurfacePlace& place : perforation.line) {
+    for (const TissuePlace& place : perforation.line) {
       digest.add(place.mesh);
       digest.add(place.triangle);
       for (const double part : place.barycentric) digest.add(part);

@@ -7,6 +7,7 @@
 #include <array>
 
 #include "c/c_twins.h"
+#include "support/models/rigs.h"
 
 namespace sunder::test {
 namespace {
@@ -233,6 +234,54 @@ TEST(CTissue, tissue_tears_by_force_as_in_the_library) {
   options.length = -1.0;
   EXPECT_EQ(sunder_tear_overstretched(twins.c_scene, twins.c_id, &options, &found),
             SUNDER_INVALID_ARGUMENT);
+}
+
+/// Fields and a perforation of a sheet, and how an asset of them by C fails or not.
+struct AuthoredAsset {
+  Character character = make_sheet(6);
+  std::vector<float> values = std::vector<float>(character.meshes[0].vertex_count(), 0.5f);
+  sunder_tissue_field field = {sizeof field, 0, SUNDER_FIELD_STIFFNESS,
+                               static_cast<std::uint32_t>(values.size()), values.data()};
+  std::array<sunder_surface_place, 2> places = {{{0, 0, {1, 0, 0}}, {0, 9, {0, 0.5, 0.5}}}};
+  sunder_perforation perforation = {sizeof perforation, 2, places.data(), 0.3};
+  sunder_asset_options options = sunder_default_asset_options();
+
+  AuthoredAsset() {
+    options.is_soft = 1;
+    options.field_count = options.perforation_count = 1;
+    options.fields = &field;
+    options.perforations = &perforation;
+    options.self_contact_thickness = 0.01;
+  }
+  sunder_status create() const {
+    const sunder_character made = test::create(character);
+    sunder_asset asset = 0;
+    const sunder_status status = sunder_create_asset(made, &options, &asset);
+    if (status == SUNDER_OK) EXPECT_DONE(sunder_destroy_asset(asset));
+    EXPECT_DONE(sunder_destroy_character(made));
+    return status;
+  }
+};
+
+TEST(CTissue, fields_and_perforations_are_checked) {
+  EXPECT_EQ(AuthoredAsset().create(), SUNDER_OK) << sunder_last_error();
+  AuthoredAsset bad_value;
+  bad_value.values[7] = 0;
+  EXPECT_EQ(bad_value.create(), SUNDER_INVALID_ARGUMENT);
+  EXPECT_NE(std::string(sunder_last_error()).find("vertex 7: the factor of stiffness is 0"),
+            std::string::npos)
+      << sunder_last_error();
+  AuthoredAsset bad_mesh, bad_field, bad_count, bad_place, bad_strength;
+  bad_mesh.field.mesh = 1;
+  EXPECT_EQ(bad_mesh.create(), SUNDER_INDEX_OUT_OF_RANGE);
+  bad_field.field.field = 5;
+  EXPECT_EQ(bad_field.create(), SUNDER_INVALID_ARGUMENT);
+  bad_count.field.value_count = 3;
+  EXPECT_EQ(bad_count.create(), SUNDER_SIZE_MISMATCH);
+  bad_place.places[1].triangle = 1000;
+  EXPECT_EQ(bad_place.create(), SUNDER_INDEX_OUT_OF_RANGE);
+  bad_strength.perforation.strength = 2;
+  EXPECT_EQ(bad_strength.create(), SUNDER_INVALID_ARGUMENT);
 }
 
 }  // namespace

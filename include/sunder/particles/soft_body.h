@@ -28,7 +28,7 @@ enum class Follow : std::uint8_t {
 };
 
 /// Lips and flaps do not pass through one another, nor through the skin below. Costs nothing while
-/// no lip is open or pressed.
+/// there are no lips, or all sleeps.
 struct SelfContact {
   double thickness = 0.0;  ///< Of the tissue, metres, to 1e9; 0: nothing touches.
   double friction = 0.0;   ///< Greatest ratio of tangential to normal force, [0, 1e12].

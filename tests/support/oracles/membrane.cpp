@@ -113,9 +113,9 @@ AuthoredTissue authored(const Character& character, const FactorsOfPlace& factor
   return tissue;
 }
 
-SurfacePlace place_on_sheet(const Character& character, const Vec3d& position) {
+TissuePlace place_on_sheet(const Character& character, const Vec3d& position) {
   const Mesh& mesh = character.meshes[0];
-  SurfacePlace best;
+  TissuePlace best;
   double most = -1e30;
   for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
     std::array<Vec3d, 3> at;

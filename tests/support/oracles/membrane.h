@@ -20,7 +20,7 @@ AuthoredTissue authored(const Character& character, const FactorsOfPlace& factor
 
 /// The place on the surface of a character of one flat mesh in the plane z = 0 that is nearest to a
 /// position, in its bind pose. O(triangles).
-SurfacePlace place_on_sheet(const Character& character, const Vec3d& position);
+TissuePlace place_on_sheet(const Character& character, const Vec3d& position);
 
 /// The displacement of every point of a torn surface in balance: a membrane on an elastic
 /// foundation, by finite elements with one unknown per point, linear on each face (cotangent
