@@ -1,3 +1,4 @@
+#include <sunder/skinning/deform.h>
 #include <sunder/tear/wound_mask.h>
 
 #include <algorithm>
@@ -9,6 +10,7 @@
 #include "core/internal/out_of_memory.h"
 #include "tear/model/model_access.h"
 #include "tear/wound_mask/beams_of_faces.h"
+#include "tear/wound_mask/rivulets.h"
 #include "tear/wound_mask/spread.h"
 #include "tear/wound_mask/texels.h"
 #include "tear/wound_mask/torn_parts.h"
@@ -49,6 +51,19 @@ Status check_options(const TornModel& model, std::uint32_t mesh, const WoundMask
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "the dilation of a wound mask is 1 to %u texels, not %u", kMostDilation,
                            options.dilation);
+  return {};
+}
+
+Status check_flow(const BloodFlowOptions& options) {
+  const auto is_length = [](double value) {
+    return value > 0 && std::isfinite(static_cast<float>(value));
+  };
+  if (!is_length(options.length) || !is_length(options.width) || !is_length(options.spacing))
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "length, width and spacing of rivulets must be finite and above 0");
+  if (!options.down.allFinite() || !(options.down.norm() > 0))
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "the direction down must be finite and not 0");
   return {};
 }
 
@@ -96,6 +111,9 @@ struct WoundMask::State {
   [[nodiscard]] Result<TexelRectangle> update(const TornModel& model, const ChangeRecord& change);
   [[nodiscard]] bool has_triangles_of(const Character& other) const;
   [[nodiscard]] double distance_at(Index face, const std::array<double, 3>& place) const;
+  [[nodiscard]] std::vector<float> flow(const Character& source,
+                                        std::span<const std::vector<Vec3f>> posed,
+                                        const BloodFlowOptions& options) const;
 
   WoundMaskOptions options;
   std::uint32_t mesh = 0;
@@ -151,6 +169,51 @@ void WoundMask::State::paint(Index face, Bounds& bounds) {
             static_cast<float>(is_removed ? -least : least);
         bounds.add(column, row);
       });
+}
+
+std::vector<float> WoundMask::State::flow(const Character& source,
+                                          std::span<const std::vector<Vec3f>> posed,
+                                          const BloodFlowOptions& wanted) const {
+  const auto is_removed = [this](Index face, const std::array<double, 3>& place) {
+    const auto parts = torn.find(face);
+    return parts != torn.end() && parts->second.is_removed(place);
+  };
+  tear::Rivulets rivulets(source, faces, posed, wanted, is_removed);
+  std::vector<Index> bleeding;
+  for (const auto& [face, parts] : torn) bleeding.push_back(face);
+  std::sort(bleeding.begin(), bleeding.end());
+  for (const Index face : bleeding) rivulets.run_from(face, torn.at(face).lips);
+  // A face sees the parts of rivulets beside it as lips.
+  struct Seen {
+    Index face = 0;
+    Beam beam;
+    double radius = 0;
+  };
+  std::vector<Seen> seen;
+  tear::Spread beside(faces, wanted.width / 2);
+  for (const tear::RivuletPart& part : rivulets.parts())
+    for (const tear::SpreadBeam& at : beside.from(part.face, std::span(&part.segment, 1)))
+      seen.push_back({at.face, at.beam, part.radius});
+  std::stable_sort(seen.begin(), seen.end(),
+                   [](const Seen& a, const Seen& b) { return a.face < b.face; });
+  std::vector<float> flows(distances.size());
+  for (std::size_t begin = 0, end = 0; begin < seen.size(); begin = end) {
+    const Index face = seen[begin].face;
+    while (end < seen.size() && seen[end].face == face) ++end;
+    if (face < faces.surface.first_triangle[mesh] || face >= faces.surface.first_triangle[mesh + 1])
+      continue;
+    texels.for_each_of(
+        face - faces.surface.first_triangle[mesh],
+        [&](std::uint32_t column, std::uint32_t row, const std::array<double, 3>& place) {
+          const tear::Flat at = faces.place(face, place);
+          double most = 0;
+          for (std::size_t i = begin; i < end; ++i)
+            most = std::max(most, 2 * (1 - seen[i].beam.distance(at) / seen[i].radius));
+          flows[std::size_t{row} * options.width + column] =
+              static_cast<float>(std::min(most, 1.0));
+        });
+  }
+  return flows;
 }
 
 double WoundMask::State::distance_at(Index face, const std::array<double, 3>& place) const {
@@ -235,6 +298,30 @@ Result<TexelRectangle> WoundMask::update(const TornModel& model, const ChangeRec
   return or_out_of_memory([&]() -> Result<TexelRectangle> {
     if (const Status status = model.unpack(); !status) return status;
     return state_->update(model, change);
+  });
+}
+
+Result<std::vector<float>> WoundMask::flow(const TornModel& model, const ModelPose& pose,
+                                           const BloodFlowOptions& options) const {
+  const Character& source = model.source();
+  if (!state_->has_triangles_of(source))
+    return Status::failure(StatusCode::invalid_argument, kNone, "the model has another source");
+  if (const Status status = check_flow(options); !status) return status;
+  return or_out_of_memory([&]() -> Result<std::vector<float>> {
+    std::vector<std::vector<Vec3f>> posed(source.meshes.size());
+    std::vector<Affine3f> palette;
+    for (std::size_t m = 0; m < posed.size(); ++m) {
+      const Skin& skin = source.skins[source.meshes[m].skin];
+      palette.resize(skin.bones.size());
+      if (const Status status = compute_palette(skin, pose, palette); !status) return status;
+      DeformedMesh deformed;
+      if (const Status status =
+              deform_mesh(source.meshes[m], palette, pose.morph_weights, deformed);
+          !status)
+        return status;
+      posed[m] = std::move(deformed.positions);
+    }
+    return state_->flow(source, posed, options);
   });
 }
 

@@ -271,6 +271,98 @@ TEST(WoundMask, notes_charts_that_overlap_or_repeat) {
   EXPECT_EQ(notes.overlapping_texels, 0U);
 }
 
+/// A cut across a sheet that stands upright if `down` is in its plane.
+std::vector<float> flow_of(const TornModel& model, const Vec3d& down, std::uint64_t seed = 0) {
+  BloodFlowOptions options;
+  options.down = down;
+  options.length = 0.2;
+  options.width = 0.05;
+  options.spacing = 0.03;
+  options.seed = seed;
+  const WoundMask mask = make_mask(model, options_of(64, 0.1));
+  const auto flow = mask.flow(model, *bind_pose(model.source()), options);
+  EXPECT_TRUE(flow) << flow.error().text();
+  return *flow;
+}
+
+TEST(WoundMask, blood_runs_down_and_no_farther_than_its_length) {
+  const Character sheet = test::make_sheet(8);
+  TornModel model = make_model(sheet);
+  ASSERT_TRUE(
+      model.tear(*bind_pose(sheet), Stroke{test::down_at(0.2, 0.5), test::down_at(0.8, 0.5)}));
+  const Vec3d along_v = Vec3d::UnitY();
+  for (const double sign : {1.0, -1.0}) {
+    const std::vector<float> flow = flow_of(model, sign * along_v);
+    std::size_t count = 0;
+    double farthest = 0;
+    for (std::size_t i = 0; i < flow.size(); ++i) {
+      ASSERT_TRUE(flow[i] >= 0 && flow[i] <= 1);
+      if (flow[i] == 0) continue;
+      ++count;
+      const double u = (static_cast<double>(i % 64) + 0.5) / 64,
+                   v = (static_cast<double>(i / 64) + 0.5) / 64;
+      const double below = sign * (v - 0.5);
+      EXPECT_GT(below, -0.03) << "above the cut";
+      EXPECT_LT(below, 0.23);
+      EXPECT_TRUE(u > 0.2 - 0.15 && u < 0.8 + 0.15);
+      farthest = std::max(farthest, below);
+    }
+    EXPECT_GT(count, 40U);
+    EXPECT_GT(farthest, 0.1);
+  }
+  EXPECT_NE(flow_of(model, along_v), flow_of(model, along_v, 1)) << "the seed changes it";
+  for (const float value : flow_of(model, Vec3d::UnitZ()))
+    EXPECT_EQ(value, 0) << "the sheet lies flat";
+}
+
+TEST(WoundMask, blood_is_that_of_a_mask_that_followed_the_operations) {
+  for (int seed = 0; seed < test::stressed(6, 60) && !HasFailure(); ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(static_cast<std::uint64_t>(seed));
+    const Character tube = make_atlas_tube(6 + random.index(8), 6 + random.index(8));
+    TornModel model = make_model(tube);
+    WoundMask mask = make_mask(model, options_of(64, 0.2));
+    for (int i = 0; i < 4; ++i) {
+      ChangeRecord change;
+      ASSERT_TRUE(test::play(model, test::random_tear(model, random, i % 2 == 1), &change));
+      ASSERT_TRUE(mask.update(model, change));
+    }
+    BloodFlowOptions options;
+    options.down = Vec3d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+    options.length = 0.8;
+    options.width = 0.05;
+    options.spacing = 0.1;
+    const auto followed = mask.flow(model, *bind_pose(tube), options),
+               whole = make_mask(model, options_of(64, 0.2)).flow(model, *bind_pose(tube), options);
+    ASSERT_TRUE(followed && whole);
+    EXPECT_EQ(*followed, *whole);
+    for (std::size_t i = 0; i < whole->size(); ++i) {
+      if (mask.distances()[i] > -0.05f) continue;
+      EXPECT_EQ((*whole)[i], 0) << "removed skin";
+    }
+  }
+}
+
+TEST(WoundMask, refuses_bad_flow) {
+  const TornModel model = make_model(test::make_sheet(2));
+  const WoundMask mask = make_mask(model, options_of(8, 0.1));
+  const auto is_refused = [&](const BloodFlowOptions& options) {
+    const auto flow = mask.flow(model, *bind_pose(model.source()), options);
+    return !flow && flow.error().code() == StatusCode::invalid_argument;
+  };
+  EXPECT_FALSE(is_refused({}));
+  for (double BloodFlowOptions::*const field :
+       {&BloodFlowOptions::length, &BloodFlowOptions::width, &BloodFlowOptions::spacing})
+    for (const double value : {0.0, -1.0, std::nan(""), 1e300}) {
+      BloodFlowOptions bad;
+      bad.*field = value;
+      EXPECT_TRUE(is_refused(bad));
+    }
+  BloodFlowOptions bad;
+  bad.down = Vec3d::Zero();
+  EXPECT_TRUE(is_refused(bad));
+}
+
 TEST(WoundMask, refuses_bad_options) {
   const TornModel model = make_model(test::make_sheet(2));
   const auto code_of = [&](std::uint32_t mesh, const WoundMaskOptions& options) {

@@ -13,7 +13,7 @@ namespace sunder::tools {
 namespace {
 
 constexpr double kReachOfSize = 0.02;    ///< Of blood, by the model's diagonal.
-constexpr double kTexelsOfReach = 8;     ///< Least number that shows its border.
+constexpr double kTexelsOfReach = 12;    ///< Least number that shows its border.
 constexpr double kMostEnlarged = 2048;   ///< Texels a side of what is drawn finer than its source.
 constexpr double kMostTexels = 8192;     ///< Texels a side.
 constexpr double kInsideTexture = 1e-3;  ///< By which coordinates may be off the image.
@@ -144,8 +144,17 @@ Vec3d rest_place(const Mesh& source, const SourcePlace& place) {
   return sum;
 }
 
-/// Lays blood on the texels within its reach. @return whether there are any
-bool paint(const WoundMask& mask, const Mesh& source, Image& image) {
+BloodFlowOptions flow_within(double reach) {
+  BloodFlowOptions options;
+  options.length = 6 * reach;
+  options.width = 0.32 * reach;
+  options.spacing = 0.9 * reach;
+  return options;
+}
+
+/// Lays blood on the texels within its reach, and where it has run.
+/// @param flow  WoundMask::flow(), or nothing. @return whether there is any blood
+bool paint(const WoundMask& mask, std::span<const float> flow, const Mesh& source, Image& image) {
   const WoundMaskOptions& options = mask.options();
   const auto reach = static_cast<float>(options.reach);
   bool is_any = false;
@@ -153,14 +162,15 @@ bool paint(const WoundMask& mask, const Mesh& source, Image& image) {
     for (std::uint32_t x = 0; x < options.width; ++x) {
       const std::size_t texel = std::size_t{y} * options.width + x;
       const float distance = mask.distances()[texel];
-      if (std::abs(distance) >= reach) continue;
+      const double run = flow.empty() ? 0.0 : static_cast<double>(flow[texel]);
+      if (std::abs(distance) >= reach && !(run > 0)) continue;
       const auto place = mask.place_of(x, y);
       if (!place) continue;
       is_any = true;
       std::uint8_t* const pixel = &image.rgba[4 * texel];
       const auto& linear = linear_from_srgb();
       const Vec3f color = bloodied({linear[pixel[0]], linear[pixel[1]], linear[pixel[2]]},
-                                   {static_cast<double>(distance), options.reach, 0,
+                                   {static_cast<double>(distance), options.reach, run,
                                     rest_place(source, *place) / options.reach});
       for (int i = 0; i < 3; ++i) pixel[i] = srgb_from_linear(color[i]);
     }
@@ -188,12 +198,13 @@ class MeshBlood {
  public:
   /// @param reach  in bind space.
   MeshBlood(const TornModel& model, std::uint32_t mesh, const ModelLooks& looks, double reach,
-            std::uint64_t& pixels_left, BloodLayers& layers)
+            const ModelPose* flow_pose, std::uint64_t& pixels_left, BloodLayers& layers)
       : model_(model),
         mesh_(mesh),
         source_(model.source().meshes[mesh]),
         looks_(looks),
         reach_(reach),
+        flow_pose_(flow_pose),
         pixels_left_(pixels_left),
         layers_(layers) {}
 
@@ -221,6 +232,7 @@ class MeshBlood {
   const Mesh& source_;
   const ModelLooks& looks_;
   const double reach_;
+  const ModelPose* flow_pose_;
   std::uint64_t& pixels_left_;
   BloodLayers& layers_;
   std::optional<WoundMask> distances_;  ///< Without a texture.
@@ -257,7 +269,10 @@ Result<const char*> MeshBlood::lay_on_texture(std::uint32_t submesh) {
       mask->distances(), [&](float distance) { return distance < static_cast<float>(reach_); });
   if (!is_any) return nullptr;
   texture.image = base_image(*frame, of.material);
-  if (!paint(*mask, source_, texture.image)) return nullptr;
+  Result<std::vector<float>> flow = std::vector<float>();
+  if (flow_pose_ != nullptr) flow = mask->flow(model_, *flow_pose_, flow_within(reach_));
+  if (!flow) return flow.error();
+  if (!paint(*mask, *flow, source_, texture.image)) return nullptr;
   pixels_left_ -= pixels;
   layers_.textures.push_back(std::move(texture));
   return nullptr;
@@ -323,7 +338,8 @@ Result<BloodLayers> lay_blood(const TornModel& model, std::span<const DeformedMe
     if (torn[m].triangles == of_source.triangles) continue;
     const double reach = options.reach * bind_scale(of_source, source[m]);
     if (!(reach > 0) || !std::isfinite(static_cast<float>(reach))) continue;
-    const Status status = MeshBlood(model, m, looks, reach, pixels_left, layers).lay();
+    const Status status =
+        MeshBlood(model, m, looks, reach, options.flow_pose, pixels_left, layers).lay();
     if (!status) return status;
   }
   return layers;

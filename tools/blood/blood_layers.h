@@ -39,6 +39,7 @@ struct BloodOptions {
   /// How far from lips there is blood, metres in the pose; the mask of each mesh has it in bind
   /// space, which may have another scale.
   double reach = 0;
+  const ModelPose* flow_pose = nullptr;  ///< In which blood runs down; null: it does not.
   /// For all textures together, so that a file cannot ask for more.
   std::uint64_t most_pixels = kMostImagePixels;
 };

@@ -67,7 +67,7 @@ Vec3f bloodied(const Vec3f& color, const BloodPlace& at) {
   Vec3f result = color;
   if (near < 1) {
     const auto share =
-        kReddest * static_cast<float>(std::exp(-6 * near * near) * (1 - near) * (1 - near));
+        kReddest * static_cast<float>((1 - near) * (1 - near) * (1 - near) * (1 - near));
     const Vec3f red = 0.35f * color + 0.25f * color.norm() * Vec3f(0.9f, 0.16f, 0.13f);
     result += share * (red - color);
   }

@@ -77,9 +77,8 @@ Result<RenderScene> TornActor::scene(const Posture& posture, const ModelLooks& l
   const TornModel& model = *model_.instance.model();
   const Character& source = model.source();
   if (posture.wound && bloody_lips_ != wound_.lips.size()) {
-    const auto posed = pose_positions(source, tear_pose_);
-    if (!posed) return posed.error();
-    Result<BloodCovers> blood = BloodCovers::create(model, *posed, looks, posture.wound->length());
+    Result<BloodCovers> blood =
+        BloodCovers::create(model, tear_pose_, looks, posture.wound->length());
     if (!blood) return blood.error();
     blood_ = std::move(*blood);
     bloody_lips_ = wound_.lips.size();

@@ -12,26 +12,22 @@ constexpr double kReachOfLength = 0.06;
 
 }  // namespace
 
-Result<BloodCovers> BloodCovers::create(const TornModel& model,
-                                        std::span<const DeformedMesh> source,
+Result<BloodCovers> BloodCovers::create(const TornModel& model, const ModelPose& pose,
                                         const ModelLooks& looks, double length) {
-  Bounds bounds;
-  for (const DeformedMesh& mesh : source)
-    for (const Vec3f& place : mesh.positions) {
-      bounds.least = bounds.least.cwiseMin(place.cast<double>());
-      bounds.greatest = bounds.greatest.cwiseMax(place.cast<double>());
-    }
+  const Result<std::vector<DeformedMesh>> source = pose_positions(model.source(), pose);
+  if (!source) return source.error();
   BloodOptions options;
-  options.reach = blood_reach(bounds.size().norm());
+  options.flow_pose = &pose;
+  options.reach = blood_reach(bounds_of(model.source(), *source).size().norm());
   if (length > 0) options.reach = std::min(options.reach, kReachOfLength * length);
-  Result<BloodLayers> layers = lay_blood(model, source, looks, options);
+  Result<BloodLayers> layers = lay_blood(model, *source, looks, options);
   if (!layers) return layers.error();
   BloodCovers covers;
   covers.layers_ = std::move(*layers);
-  for (std::size_t m = 0; m < source.size(); ++m) {
+  for (std::size_t m = 0; m < source->size(); ++m) {
     const Mesh& mesh = model.source().meshes[m];
     covers.submeshes_of_.push_back(mesh.submeshes.size());
-    const double reach = options.reach * bind_scale(mesh, source[m]);
+    const double reach = options.reach * bind_scale(mesh, (*source)[m]);
     covers.reaches_of_.push_back(reach > 0 ? static_cast<float>(1 / reach) : 1.0f);
   }
   return covers;

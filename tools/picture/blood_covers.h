@@ -15,11 +15,10 @@ namespace sunder::tools {
 class BloodCovers {
  public:
   BloodCovers() = default;  ///< None.
-  /// @param source  the meshes of the model's source in the pose of the operations.
+  /// @param pose    of the operations, in which blood runs down.
   /// @param length  of its wounds, metres; 0: they have none.
-  /// @return the failures of lay_blood().
-  [[nodiscard]] static Result<BloodCovers> create(const TornModel& model,
-                                                  std::span<const DeformedMesh> source,
+  /// @return the failures of lay_blood() and pose_positions().
+  [[nodiscard]] static Result<BloodCovers> create(const TornModel& model, const ModelPose& pose,
                                                   const ModelLooks& looks, double length);
 
   /// Adds the materials to a scene that `looks` began and that must not outlive this object.

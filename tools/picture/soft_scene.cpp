@@ -151,8 +151,7 @@ void SoftScene::draw(const std::string& png, const ViewFrame& frame, const Vec3d
   for (const ChangeRecord& change : changes) wounds.push_back(wound_of(std::span(&change, 1)));
   const ModelLooks looks = check(ModelLooks::create(nullptr));
   const std::vector<DeformedMesh> closed = posed(), open = displaced();
-  const BloodCovers blood =
-      check(BloodCovers::create(*instance.model(), check(pose_positions(*source, pose)), looks, 0));
+  const BloodCovers blood = check(BloodCovers::create(*instance.model(), pose, looks, 0));
   const RenderScene scene = make_torn_scene({*instance.model(), closed, open, wounds, blood}, looks,
                                             kThickness * diagonal_);
   Camera camera;

@@ -96,6 +96,12 @@ std::vector<Vec3d> wound_places(const TornModel& torn, const std::vector<RimEdge
   return places;
 }
 
+/// The picture of a cut shows its pieces, that of a bore its surroundings.
+double surroundings_of(const Operation& operation) {
+  if (std::holds_alternative<CutOperation>(operation)) return 3.1;
+  return std::holds_alternative<DrillOperation>(operation) ? 2.4 : 1.45;
+}
+
 /// Shows the wound in the middle, with its surroundings; at most the whole model.
 Camera aim(const ViewFrame& frame, const std::vector<Vec3d>& wound, const Bounds& bounds,
            double surroundings) {
@@ -159,11 +165,9 @@ void move_apart(const Character& character, const PlaneCut& cut,
 
 Result<BloodCovers> blood_of(const TornModel& torn, const ModelPose& pose,
                              std::span<const Wound> wounds, const ModelLooks& looks) {
-  const Result<std::vector<DeformedMesh>> source = pose_positions(torn.source(), pose);
-  if (!source) return source.error();
   double length = 0;
   for (const Wound& wound : wounds) length += wound.length;
-  return BloodCovers::create(torn, *source, looks, length);
+  return BloodCovers::create(torn, pose, looks, length);
 }
 
 /// The view of a wound; says if there is none that shows it.
@@ -228,13 +232,9 @@ Status draw_torn(const LoadedCharacter& loaded, std::span<const Operation> histo
   add_surfaces(*beside, *looks, scene);
   if (cut == nullptr)
     frame = seen_wound(scene, frame, png, messages);  // A cut is seen along its plane.
-  // The picture of a cut shows its pieces, that of a bore its surroundings.
-  const double margin = cut != nullptr                                   ? 3.1
-                        : std::holds_alternative<DrillOperation>(newest) ? 2.4
-                                                                         : 1.45;
   std::vector<Vec3d> shown = wound_places(torn, find_rims(torn), open);
   if (robot != nullptr) add_places_of_robot(*beside, diagonal, shown);
-  const Camera camera = aim(frame, shown, bounds, robot == nullptr ? margin : 1.1);
+  const Camera camera = aim(frame, shown, bounds, robot == nullptr ? surroundings_of(newest) : 1.1);
   progress.begin_step(3, "drawing");
   const Picture picture = trace(scene, camera, kSize);
   const Budget::Writing writing(budget);

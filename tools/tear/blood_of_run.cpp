@@ -40,6 +40,7 @@ ExitCode lay_blood_of_run(TearRun& run) {
   const auto posed = pose_positions(run.model.source(), *pose);
   if (!posed) return complain(place, posed.error(), ExitCode::internal_error);
   BloodOptions options;
+  options.flow_pose = &*pose;
   options.reach = *run.request.blood;
   if (options.reach == 0)
     options.reach = blood_reach(bounds_of(run.model.source(), *posed).size().norm());

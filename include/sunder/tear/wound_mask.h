@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace sunder {
 
@@ -37,6 +38,15 @@ struct TexelRectangle {
 struct SourcePlace {
   std::uint32_t triangle = 0;              ///< Of the mesh.
   std::array<double, 3> barycentric = {};  ///< Per corner; sum 1.
+};
+
+/// How blood runs from lips: in rivulets, each along the steepest way down.
+struct BloodFlowOptions {
+  Vec3d down = -Vec3d::UnitY();  ///< In model space; any length but 0.
+  double length = 0.06;          ///< Of the longest one along the surface in bind space, metres.
+  double width = 0.003;          ///< Of the widest one where it begins, metres.
+  double spacing = 0.012;        ///< Along lips from one to the next, on the mean; metres.
+  std::uint64_t seed = 0;        ///< Chooses where they begin and how they wander.
 };
 
 /// Counts of what the texture cannot show.
@@ -81,6 +91,16 @@ class SUNDER_API WoundMask {
   ///         mask. O(changed triangles + changed lips x faces within reach of each + texels of
   ///         these faces).
   Result<TexelRectangle> update(const TornModel& model, const ChangeRecord& change);
+
+  /// Lets blood run from the lips over the surface in a pose, lips closed, around bodies and over
+  /// seams, until it is flat, overhangs at its lowest place, or ends. Removed skin stops it.
+  /// Rivulets wander, are narrower at their ends, and are the same on every machine.
+  /// @return how much blood runs over each texel, as distances() is ordered: 0 to 1;
+  ///         invalid_argument: an option is not finite or not above 0, or the model has another
+  ///         source; the failures of compute_palette(); limit_exceeded: out of memory.
+  ///         O(vertices + lips + texels of the faces beside rivulets).
+  [[nodiscard]] Result<std::vector<float>> flow(const TornModel& model, const ModelPose& pose,
+                                                const BloodFlowOptions& options = {}) const;
 
   /// Per texel, row by row from the top: metres, at most WoundMaskOptions::reach. Negative where
   /// operations removed the skin. Texels that no triangle uses have the reach.
