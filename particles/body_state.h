@@ -26,8 +26,13 @@ struct OuterForces {
   bool is_tension_stale = false;  ///< Whether Motion::lip_forces must be recomputed.
   PoseTension of_pose;            ///< If Tension::adds_pose_strain.
   bool is_disturbed = false;      ///< Whether something changed since the last step.
-  double time = 0;  ///< Seconds of all steps: the time at which the wind is asked for.
+  double time = 0;          ///< Seconds of all steps: the time at which the wind is asked for.
   double step_seconds = 0;  ///< Of the last one.
+
+  void advance(double seconds) {
+    time += seconds;
+    step_seconds = seconds;
+  }
 };
 
 /// The motion that renderers read.

@@ -172,7 +172,7 @@ void BodyState::publish(bool is_posed) {
 }
 
 void BodyState::step(const TornModel& model, const ModelPose& pose, bool is_posed, double seconds) {
-  outer.time += seconds;
+  outer.advance(seconds);
   connect_springs();
   // A body that lags moves relative to the world; between steps its velocity is stored relative to
   // that of its rest.

@@ -352,9 +352,8 @@ Status SoftBody::step(const TornModel& model, const ModelPose& pose, double seco
                            "the time step is %g s; it must not be below 0", seconds);
   seconds = std::min(seconds, particles::kLongestStepSeconds);
   BodyState& state = *state_;
-  state.outer.step_seconds = seconds;
   if (state.is_idle()) {
-    state.outer.time += seconds;
+    state.outer.advance(seconds);
     state.rests.skip_step();
     state.contact.skip_step();
     return {};
@@ -366,7 +365,7 @@ Status SoftBody::step(const TornModel& model, const ModelPose& pose, double seco
         model.point_count(), state.set->point_count());
   const bool is_posed = !state.rests.is_same(pose);
   if (!is_posed && state.is_still() && state.rests.carried().empty()) {
-    state.outer.time += seconds;
+    state.outer.advance(seconds);
     state.contact.skip_step();
     return {};
   }

@@ -69,7 +69,8 @@ Values sample(const Character& character, const Mesh& mesh, const BoneWeight& fr
 double texel(const TextureChannel& of, double x, double y) {
   const auto wrapped = [](double at, std::uint32_t count) {
     const double rest = at - std::floor(at / count) * count;
-    return std::min(static_cast<std::size_t>(rest), std::size_t{count} - 1);
+    // Of coordinates beyond 2^53 the rest is rounding, of either sign.
+    return std::min(static_cast<std::size_t>(std::max(rest, 0.0)), std::size_t{count} - 1);
   };
   const std::size_t at = wrapped(y, of.height) * of.width + wrapped(x, of.width);
   return of.rgba[4 * at + of.channel] / 255.0;

@@ -102,7 +102,7 @@ Course Perforations::from_tip(const Vec3d& tip, const Vec3d& forward, double len
       course.begin = moved(line, arc, way * std::min(kJoinsWithin * distance, 0.5 * length));
       const double beside = norm(Vec3d(place(i, course.begin) - tip));
       if (!(beside < length)) continue;
-      course.end = moved(line, course.begin, way * (length - beside));
+      course.end = moved(line, course.begin, way * std::min(length - beside, line.length()));
       course.length = beside + std::abs(course.end - course.begin);
       if (course.length < kLeastCoursePart * length) continue;
       course.strength =
@@ -127,7 +127,8 @@ Course Perforations::around(const Vec3d& position, double within, double length,
     const auto [arc, distance] = nearest(line, position);
     if (!(distance < least)) continue;
     least = distance;
-    best = {i, moved(line, arc, -0.5 * length), moved(line, arc, 0.5 * length)};
+    const double half = 0.5 * std::min(length, line.length());  // a closed line is passed once
+    best = {i, moved(line, arc, -half), moved(line, arc, half)};
     best.length = std::abs(best.end - best.begin);
     best.strength = line.strength;
     along = normalized(Vec3d(place(i, best.end) - place(i, best.begin)));
