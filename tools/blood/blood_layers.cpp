@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/internal/elementary.h"
 #include "tools/blood/blood_look.h"
 #include "tools/messages/printed.h"
 #include "tools/render/texture.h"
@@ -105,8 +106,9 @@ std::optional<Frame> frame_of(const Mesh& mesh, std::uint32_t submesh, const Bas
 }
 
 std::uint8_t srgb_from_linear(float value) {
-  const float c = std::clamp(value, 0.0f, 1.0f);
-  const float encoded = c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1 / 2.4f) - 0.055f;
+  const double c = std::clamp(double{value}, 0.0, 1.0);
+  const double encoded =
+      c <= 0.0031308 ? 12.92 * c : 1.055 * elementary::exp(elementary::log(c) / 2.4) - 0.055;
   return static_cast<std::uint8_t>(std::lround(255 * encoded));
 }
 
@@ -335,7 +337,10 @@ Result<BloodLayers> lay_blood(const TornModel& model, std::span<const DeformedMe
   const std::vector<Mesh>& torn = model.character().meshes;
   for (std::uint32_t m = 0; m < torn.size(); ++m) {
     const Mesh& of_source = model.source().meshes[m];
-    if (torn[m].triangles == of_source.triangles) continue;
+    // A tear along a seam changes tear sides alone.
+    if (torn[m].triangles == of_source.triangles &&
+        torn[m].custom_attributes == of_source.custom_attributes)
+      continue;
     const double reach = options.reach * bind_scale(of_source, source[m]);
     if (!(reach > 0) || !std::isfinite(static_cast<float>(reach))) continue;
     const Status status =
