@@ -110,6 +110,7 @@ INSTANTIATE_TEST_SUITE_P(
         Table{"Tear", "\n## `tear`\n", kFields, described_fields<TearOperation>()},
         Table{"Cut", "\n## `cut`\n", kFields, described_fields<CutOperation>()},
         Table{"Drill", "\n## `drill`\n", kFields, described_fields<DrillOperation>()},
+        Table{"Weld", "\n## `weld`\n", kFields, described_fields<WeldOperation>()},
         Table{"Detach", "\n## `detach`\n", kFields, described_fields<DetachOperation>()},
         Table{"Weights", "\n## `weights`\n", kFields, described_fields<WeightsOperation>()},
         Table{"WeightOptions", "\n## `weights`\n", "| field of `weights`",
@@ -244,9 +245,10 @@ class DescribedMembers : public testing::Test {};
 using DescribedStructs =
     testing::Types<TearOptions, PlaneCut, Bore, SectionRay, Blade, WeightOptions, WeightsOperation,
                    RefitOptions, RefitImportance, RefitImportance::OfClip, PoseSetSpec, JointLimit,
-                   ClipPose, TearOperation, CutOperation, DrillOperation, DetachOperation,
-                   PieceOfTriangle, PieceNear, UndoOperation, RedoOperation, SlashOperation,
-                   SeverOperation, PunctureOperation, IncisionOperation, SurfacePlace>;
+                   ClipPose, TearOperation, CutOperation, DrillOperation, Weld, WeldOperation,
+                   DetachOperation, PieceOfTriangle, PieceNear, UndoOperation, RedoOperation,
+                   SlashOperation, SeverOperation, PunctureOperation, IncisionOperation,
+                   SurfacePlace>;
 TYPED_TEST_SUITE(DescribedMembers, DescribedStructs);
 
 TYPED_TEST(DescribedMembers, AreAllMembers) {

@@ -163,6 +163,14 @@ DrillOperation any_drill(Random& random) {
            any_weights_if_any(random)}};
 }
 
+WeldOperation any_weld(Random& random) {
+  WeldOperation operation{any_pose(random),
+                          {{}, random.index(2) == 0 ? 0.0 : any_above_zero(random)}};
+  for (std::uint32_t i = random.index(4); i > 0; --i)
+    operation.weld.places.push_back(any_point(random));
+  return operation;
+}
+
 DetachOperation any_detach(Random& random) {
   if (random.index(2) == 0)
     return {any_pose(random), PieceOfTriangle{random.index(kNone), random.index(kNone)}};
@@ -202,7 +210,7 @@ WeightsOperation any_weights_operation(Random& random) {
 }
 
 Operation any_operation(Random& random) {
-  switch (random.index(10)) {
+  switch (random.index(11)) {
     case 0: return UndoOperation{1 + random.index(kNone - 1)};
     case 1: return RedoOperation{1 + random.index(kNone - 1)};
     case 2:
@@ -212,6 +220,7 @@ Operation any_operation(Random& random) {
     case 6:
     case 7: return any_weights_operation(random);
     case 8: return any_detach(random);
+    case 9: return any_weld(random);
     default: return any_tear(random);
   }
 }
@@ -292,6 +301,9 @@ class Bits {
         add(operation.bore.radius);
     add(operation.bore.depth), add(operation.bore.chord_tolerance), add(operation.bore.wall),
         add(operation.bore.weights), add(operation.bore.wall_material);
+  }
+  void add(const WeldOperation& operation) {
+    add(operation.pose), add(operation.weld.places), add(operation.weld.reach);
   }
   void add(const WeightsOperation& operation) {
     add(operation.first_operation), add(operation.operation_count), add(operation.weights),
