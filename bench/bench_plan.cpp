@@ -4,6 +4,7 @@
 
 #include <sunder/plan/plan.h>
 #include <sunder/skinning/pose.h>
+#include <sunder/tear/torn_model.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,6 +23,7 @@
 #include "bench/plan/plan_cases.h"
 #include "pipeline/plan/measure_wound.h"
 #include "pipeline/plan/target_path.h"
+#include "support/models/rigs.h"
 
 namespace {
 
@@ -32,7 +34,7 @@ constexpr double kFrames = 30;  ///< Samples per second of the inverse kinematic
 
 struct Figures {
   int cases = 0, reachable = 0, reached = 0, planned = 0, hausdorff_ok = 0, repeated = 0, same = 0,
-      over_limits = 0, unreachable = 0, causes = 0, causes_true = 0;
+      over_limits = 0, penetrations = 0, causes = 0, causes_true = 0;
   std::vector<double> seconds, hausdorff, frame_hausdorff, place, depth, angle;
 };
 
@@ -61,6 +63,34 @@ bool leaves_limits(const PlanTool& tool, const RobotTrajectory& trajectory) {
   return false;
 }
 
+/// How deep a vertex of a link other than the blade's comes below the surface, at 200 times: by the
+/// nearest place of the surface, which plans do not use.
+double deepest_vertex(const PlanCase& of, const RobotTrajectory& trajectory) {
+  const auto motion = RobotMotion::create(of.tool.robot, trajectory);
+  const auto model = TornModel::create(of.rig.character);
+  auto query = SurfaceQuery::create(*model);
+  std::vector<Affine3d> frames(of.tool.robot.links.size());
+  double deepest = 0;
+  constexpr int kTimes = 200, kMostVertices = 60;
+  for (int i = 0; i <= kTimes; ++i) {
+    const double time = motion->last_time() * i / kTimes;
+    const auto pose = plan::pose_at(*of.rig.character, of.timing, time);
+    if (!pose || !query->set_pose(*pose)) return std::numeric_limits<double>::infinity();
+    if (!motion->pose_at(time, frames, of.tool.world_from_root))
+      return std::numeric_limits<double>::infinity();
+    for (std::uint32_t link = 0; link < frames.size(); ++link) {
+      if (link == of.tool.blade.link) continue;
+      const std::size_t stride = of.vertices[link].size() / kMostVertices + 1;
+      for (std::size_t v = 0; v < of.vertices[link].size(); v += stride) {
+        const auto found =
+            query->find_nearest(frames[link] * of.vertices[link][v], 0.5 * of.rig.size);
+        if (found && found->has_value()) deepest = std::max(deepest, (*found)->depth);
+      }
+    }
+  }
+  return deepest;
+}
+
 /// The largest distance of lips and curve after inverse kinematics for each frame.
 double frame_hausdorff(const PlanCase& of, const plan::TargetPath& path, const PlanReport& report) {
   const double end = of.timing.approach + of.timing.cut + of.timing.retreat;
@@ -78,13 +108,68 @@ double frame_hausdorff(const PlanCase& of, const plan::TargetPath& path, const P
   return measured ? measured->hausdorff : std::numeric_limits<double>::infinity();
 }
 
+/// Where source triangles of places are in a pose, by the reference of the tests.
+std::vector<Vec3d> posed_places(const Character& character, const std::vector<SurfaceAnchor>& of,
+                                const ModelPose& pose) {
+  std::vector<std::vector<Vec3d>> posed;
+  for (std::uint32_t mesh = 0; mesh < character.meshes.size(); ++mesh)
+    posed.push_back(test::posed_positions(character, mesh, pose));
+  std::vector<Vec3d> places;
+  for (const SurfaceAnchor& anchor : of) {
+    Vec3d place = Vec3d::Zero();
+    const Triangle& triangle = character.meshes[anchor.mesh].triangles[anchor.birth.triangle];
+    for (std::size_t i = 0; i < 3; ++i)
+      place += anchor.birth.barycentric[i] * posed[anchor.mesh][triangle[i]];
+    places.push_back(place);
+  }
+  return places;
+}
+
+/// Whether a motion keeps its limits, and a vertex that it tears is far from the curve, or a place
+/// of the curve far from all of them.
+bool tear_leaves_curve(const PlanCase& of, const PlannedMotion& planned,
+                       const plan::TargetPath& path, double tolerance) {
+  if (planned.tear.stroke.empty() || leaves_limits(of.tool, planned.trajectory)) return false;
+  auto model = TornModel::create(of.rig.character);
+  if (!model || !apply_operation(*model, planned.tear)) return false;
+  std::vector<SurfaceAnchor> births;
+  for (std::uint32_t mesh = 0; mesh < of.rig.character->meshes.size(); ++mesh)
+    for (std::uint32_t v = of.rig.character->meshes[mesh].vertex_count();
+         v < model->character().meshes[mesh].vertex_count(); ++v)
+      births.push_back({mesh, model->birth(mesh, v)});
+  const auto pose = plan::pose_at(*of.rig.character, of.timing, planned.report.cut_begins);
+  const auto lips = posed_places(*of.rig.character, births, *pose);
+  const auto curve = posed_places(*of.rig.character, path.anchors(), *pose);
+  const auto farthest = [](const std::vector<Vec3d>& from, const std::vector<Vec3d>& to) {
+    double most = 0;
+    for (const Vec3d& place : from) {
+      double least = std::numeric_limits<double>::infinity();
+      for (const Vec3d& other : to) least = std::min(least, (place - other).norm());
+      most = std::max(most, least);
+    }
+    return most;
+  };
+  return farthest(lips, curve) > tolerance || farthest(curve, lips) > tolerance;
+}
+
 /// Whether the obstacles that a plan names are what stops it: without the named limits a search
 /// that shares no code, or a further plan, gets farther; and what is out of reach stays so for
 /// random searches without limits.
-bool are_true(const PlanCase& of, const PlanOptions& options, const PlanReport& report,
-              const std::vector<plan::TargetSample>& samples) {
+bool are_true(const PlanCase& of, const PlanOptions& options, const PlannedMotion& planned,
+              const plan::TargetPath& path, const std::vector<plan::TargetSample>& samples) {
+  const PlanReport& report = planned.report;
   const PlanObstacle::Kind kind = report.obstacles.front().kind;
+  if (kind == PlanObstacle::Kind::wound)
+    return tear_leaves_curve(of, planned, path, options.tolerance);
   PlanTool freed = of.tool;
+  if (kind == PlanObstacle::Kind::collision) {  // without that link's shape the plan gets farther
+    std::erase_if(freed.shapes, [&](const BoneCollider& shape) {
+      return freed.robot.links[shape.bone].name == report.obstacles.front().value;
+    });
+    const auto again = plan_motion(of.rig.character, of.target, of.timing, freed, options);
+    return again && (again->report.is_reachable ||
+                     again->report.obstacles.front().value != report.obstacles.front().value);
+  }
   const bool is_reach = kind == PlanObstacle::Kind::reach;
   for (RobotValue& value : freed.robot.values) {
     const bool is_named = is_reach || std::any_of(report.obstacles.begin(), report.obstacles.end(),
@@ -130,6 +215,7 @@ void run_case(const PlanCase& of, std::uint64_t seed, bool is_verbose, Figures& 
   PlanOptions options;
   options.tolerance = std::max(0.001 * of.rig.size, 0.01 * path->length());
   options.spacing = 0.002 * of.rig.size;
+  options.clearance = 0.005 * of.rig.size;
   std::optional<Result<PlannedMotion>> result;
   const double seconds = cpu_seconds_of(
       [&] { result = plan_motion(of.rig.character, of.target, of.timing, of.tool, options); });
@@ -154,6 +240,11 @@ void run_case(const PlanCase& of, std::uint64_t seed, bool is_verbose, Figures& 
     ++figures.planned;
     figures.hausdorff_ok += is_ok ? 1 : 0;
     figures.over_limits += leaves_limits(of.tool, planned.trajectory) ? 1 : 0;
+    const double deepest = deepest_vertex(of, planned.trajectory);
+    figures.penetrations += deepest > 1e-3 * of.rig.size ? 1 : 0;
+    if (deepest > 1e-3 * of.rig.size && is_verbose)
+      std::printf("    a vertex is %.4f below the surface, clearance %.4f\n", deepest / of.rig.size,
+                  report.least_clearance / of.rig.size);
     frame = frame_hausdorff(of, *path, report);
     figures.hausdorff.push_back(report.hausdorff / options.tolerance);
     figures.frame_hausdorff.push_back(frame / options.tolerance);
@@ -162,7 +253,7 @@ void run_case(const PlanCase& of, std::uint64_t seed, bool is_verbose, Figures& 
     figures.angle.push_back(report.mean_angle_error);
   } else {
     ++figures.causes;
-    is_true = are_true(of, options, report, *samples);
+    is_true = are_true(of, options, planned, *path, *samples);
     figures.causes_true += is_true ? 1 : 0;
   }
   if (seed % 5 == 0) {
@@ -202,6 +293,7 @@ void print_summary(const Figures& figures) {
   summary.add("plan_angle_error_median", finite(median(figures.angle)));
   summary.add("plan_seconds_median", finite(median(figures.seconds)));
   summary.add("plan_same", finite(share(figures.same, figures.repeated)));
+  summary.add("plan_penetrations", figures.penetrations);
   summary.add("plan_over_limits", figures.over_limits);
   summary.add("plan_causes", figures.causes);
   summary.add("plan_causes_true", finite(share(figures.causes_true, figures.causes)));

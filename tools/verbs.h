@@ -3,7 +3,6 @@
 #include <sunder/binding/binding.h>
 #include <sunder/io/character_file.h>
 #include <sunder/operation/aimed_operation.h>
-#include <sunder/plan/plan.h>
 #include <sunder/robot/trajectory.h>
 #include <sunder/validation/transfer.h>
 #include <sunder/validation/validation.h>
@@ -112,20 +111,8 @@ struct TearRequest {
 };
 [[nodiscard]] ExitCode run_tear(const TearRequest& request);
 
+struct PlanRequest;  // "tools/plan/plan_request.h"
 /// sunder plan: finds the motion of a robot or a hand that makes a wound.
-struct PlanRequest {
-  std::filesystem::path model, curve;
-  /// The robot, its blade and place, the pose and the clip's speed; the trajectory is the output.
-  RobotTearRequest robot;
-  std::optional<std::filesystem::path> hand;  ///< Output: a hand as URDF, in place of a robot.
-  double hand_blade = 0.1;                    ///< Length of its blade, metres.
-  PlanTiming timing;                          ///< But for the pose and the clip's speed.
-  PlanOptions options;
-  std::optional<std::filesystem::path> tear, picture, report;  ///< Outputs.
-  Verbosity verbosity = Verbosity::normal;
-  ModelReading reading;
-  BudgetLimits budget;
-};
 [[nodiscard]] ExitCode run_plan(const PlanRequest& request);
 
 /// sunder view: writes a page that shows a model and makes operation logs.

@@ -29,6 +29,29 @@ MovingRig rig_of(const std::string& name, Character character) {
   return rig;
 }
 
+void scale(Collider& collider, double size) {
+  collider.place *= size;
+  if (auto* const ball = std::get_if<Collider::Sphere>(&collider.shape)) ball->radius *= size;
+  if (auto* const box = std::get_if<Collider::Box>(&collider.shape)) box->half_size *= size;
+  if (auto* const capsule = std::get_if<Collider::Capsule>(&collider.shape)) {
+    capsule->radius *= size;
+    capsule->half_length *= size;
+  }
+}
+
+/// The vertices of each link, whose meshes are bound where the links rest.
+std::vector<std::vector<Vec3d>> link_vertices(const Character& shown, std::size_t links) {
+  std::vector<std::vector<Vec3d>> vertices(links);
+  for (const Mesh& mesh : shown.meshes) {
+    const Skin& skin = shown.skins[mesh.skin];
+    for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v)
+      for (const Influence& influence : mesh.weights.of(v))
+        vertices[skin.bones[influence.slot]].push_back(
+            (skin.bone_from_bind[influence.slot] * mesh.positions[v]).cast<double>());
+  }
+  return vertices;
+}
+
 /// The arm with all lengths scaled.
 PlanTool scaled(PlanTool tool, double size) {
   for (RobotJoint& joint : tool.robot.joints) {
@@ -43,6 +66,7 @@ PlanTool scaled(PlanTool tool, double size) {
       value.lower *= size;
       value.upper *= size;
     }
+  for (BoneCollider& of_link : tool.shapes) scale(of_link.collider, size);
   tool.blade.base *= size;
   tool.blade.tip *= size;
   return tool;
@@ -105,23 +129,37 @@ std::vector<MovingRig> moving_rigs() {
 }
 
 std::vector<Arm> arms() {
-  std::vector<Arm> found = {{"six_axes", test::six_axis_arm(Vec3d::Zero())}};
   struct File {
-    const char *name, *path, *link;
+    const char* name;
+    fs::path path;
+    const char* link;
     Vec3d base, tip;
   };
+  const fs::path urdf = kShared / "urdf";
   const File files[] = {
-      {"dvrk_psm", "dvrk_psm/dvrk_psm.urdf", "PSM1_tool_tip_link", {0, 0, 0}, {0, 0, 0.05}},
-      {"panda", "panda/panda.urdf", "panda_hand_tcp", {0, 0, 0}, {0, 0, 0.08}}};
+      {"six_axes",
+       fs::path(SUNDER_SOURCE_DIR) / "docs/pictures/plan/arm.urdf",
+       "tool",
+       {0, 0, 0.14},
+       {0, 0, 0.24}},
+      {"dvrk_psm", urdf / "dvrk_psm/dvrk_psm.urdf", "PSM1_tool_tip_link", {0, 0, 0}, {0, 0, 0.05}},
+      {"panda", urdf / "panda/panda.urdf", "panda_hand_tcp", {0, 0, 0}, {0, 0, 0.08}}};
+  std::vector<Arm> found;
   for (const File& file : files) {
     RobotLoadOptions options;
-    options.shapes = RobotShapes::none;
-    const auto loaded = load_robot(kShared / "urdf" / file.path, options);
+    options.package_roots = {urdf};
+    options.meshes.import_helper = SUNDER_IMPORT_HELPER;
+    options.meshes.import_seconds = 120;
+    const auto loaded = load_robot(file.path, options);
     if (!loaded) continue;
-    PlanTool tool;
-    tool.robot = loaded->robot;
-    tool.blade = {find_link(tool.robot, file.link), file.base, file.tip};
-    if (tool.blade.link != kNone) found.push_back({file.name, tool});
+    Arm arm{file.name, {}, {}};
+    arm.tool.robot = loaded->robot;
+    arm.tool.blade = {find_link(arm.tool.robot, file.link), file.base, file.tip};
+    const auto shapes = fit_colliders(*loaded->model.character);
+    if (!shapes || arm.tool.blade.link == kNone) continue;
+    arm.tool.shapes = *shapes;
+    arm.vertices = link_vertices(*loaded->model.character, arm.tool.robot.links.size());
+    found.push_back(std::move(arm));
   }
   return found;
 }
@@ -134,6 +172,9 @@ std::optional<PlanCase> make_case(const std::vector<MovingRig>& rigs, const std:
   const Arm& arm = arms[random.index(static_cast<std::uint32_t>(arms.size()))];
   made.arm = arm.name;
   made.tool = scaled(arm.tool, made.rig.size);
+  made.vertices = arm.vertices;
+  for (std::vector<Vec3d>& of_link : made.vertices)
+    for (Vec3d& vertex : of_link) vertex *= made.rig.size;
   const Character& character = *made.rig.character;
   const Clip& clip =
       character.clips[random.index(static_cast<std::uint32_t>(character.clips.size()))];

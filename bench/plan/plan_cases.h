@@ -27,6 +27,7 @@ struct MovingRig {
 struct Arm {
   std::string name;
   PlanTool tool;
+  std::vector<std::vector<Vec3d>> vertices;  ///< Per link, of its meshes, in its frame.
 };
 
 /// The surgical arm, the panda and an arm of six axes; without the shared models, the last alone.
@@ -37,6 +38,7 @@ struct PlanCase {
   MovingRig rig;
   std::string arm;
   PlanTool tool;
+  std::vector<std::vector<Vec3d>> vertices;  ///< Of the arm, as it is scaled.
   WoundTarget target;
   PlanTiming timing;
   std::vector<double> middle_values;  ///< All values of the robot, in the middle of the motion.

@@ -53,7 +53,6 @@ Status BladeChain::find_values() {
                              "joint '%.80s' is floating; a blade cannot be planned behind it",
                              joint.name.c_str());
     if (joint.type == RobotJointType::fixed || joint.first_value == kNone) continue;
-    joints_.push_back(link - 1);
     for (std::uint32_t i = 0; i < value_count_of(joint.type); ++i)
       moved_.push_back(joint.first_value + i);
   }
@@ -63,7 +62,6 @@ Status BladeChain::find_values() {
                            robot_.links[blade_.link].name.c_str());
   std::sort(moved_.begin(), moved_.end());
   moved_.erase(std::unique(moved_.begin(), moved_.end()), moved_.end());
-  std::reverse(joints_.begin(), joints_.end());
   place_of_value_.assign(robot_.values.size(), kNone);
   for (std::uint32_t i = 0; i < moved_.size(); ++i) place_of_value_[moved_[i]] = i;
   return {};
@@ -91,17 +89,16 @@ Values BladeChain::rest() const {
   return rest;
 }
 
-void BladeChain::add_rates(const RobotJoint& joint, std::uint32_t parent, BladePlace& place) const {
+void BladeChain::add_rates(const RobotJoint& joint, std::uint32_t parent, const Vec3d& at,
+                           PlaceRates& rates) const {
   const Affine3d world_from_joint = frames_[parent] * joint.parent_from_joint;
   const Mat3d turn = world_from_joint.linear();
   const std::uint32_t column = place_of_value_[joint.first_value];
-  const auto slide = [&](std::uint32_t at, const Vec3d& along, double by) {
-    place.base_rates.col(at) += by * along;
-    place.tip_rates.col(at) += by * along;
+  const auto slide = [&](std::uint32_t of, const Vec3d& along, double by) {
+    rates.col(of) += by * along;
   };
-  const auto rotate = [&](std::uint32_t at, const Vec3d& axis, const Vec3d& origin, double by) {
-    place.base_rates.col(at) += by * axis.cross(Vec3d(place.base - origin));
-    place.tip_rates.col(at) += by * axis.cross(Vec3d(place.tip - origin));
+  const auto rotate = [&](std::uint32_t of, const Vec3d& axis, const Vec3d& origin, double by) {
+    rates.col(of) += by * axis.cross(Vec3d(at - origin));
   };
   const Vec3d axis = turn * joint.axis, origin = world_from_joint.translation();
   switch (joint.type) {
@@ -113,8 +110,9 @@ void BladeChain::add_rates(const RobotJoint& joint, std::uint32_t parent, BladeP
       const Vec3d x = turn * axes.x, y = turn * axes.y;
       slide(column, x, 1);
       slide(column + 1, y, 1);
-      const Vec3d at = origin + values_[joint.first_value] * x + values_[joint.first_value + 1] * y;
-      return rotate(column + 2, axis, at, 1);
+      const Vec3d centre =
+          origin + values_[joint.first_value] * x + values_[joint.first_value + 1] * y;
+      return rotate(column + 2, axis, centre, 1);
     }
     case RobotJointType::fixed:
     case RobotJointType::floating: return;
@@ -132,10 +130,19 @@ void BladeChain::place(std::span<const double> values, BladePlace& place, bool w
   place.base = world_from_link * blade_.base;
   place.tip = world_from_link * blade_.tip;
   if (!with_rates) return;
-  place.base_rates.setZero(3, static_cast<Eigen::Index>(size()));
-  place.tip_rates.setZero(3, static_cast<Eigen::Index>(size()));
-  for (const std::uint32_t i : joints_)
-    add_rates(robot_.joints[i], robot_.links[i + 1].parent, place);
+  place.base_rates = rates_of(blade_.link, place.base);
+  place.tip_rates = rates_of(blade_.link, place.tip);
+}
+
+PlaceRates BladeChain::rates_of(std::uint32_t link, const Vec3d& at) const {
+  PlaceRates rates = PlaceRates::Zero(3, static_cast<Eigen::Index>(size()));
+  for (; link != 0; link = robot_.links[link].parent) {
+    const RobotJoint& joint = robot_.joints[link - 1];
+    const bool moves = joint.first_value != kNone && joint.type != RobotJointType::fixed &&
+                       place_of_value_[joint.first_value] != kNone;
+    if (moves) add_rates(joint, robot_.links[link].parent, at, rates);
+  }
+  return rates;
 }
 
 }  // namespace sunder::plan

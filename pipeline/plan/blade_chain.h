@@ -46,18 +46,20 @@ class BladeChain {
   void move_root(const Vec3d& by) { world_from_root_.translation() += by; }
 
   void place(std::span<const double> values, BladePlace& place, bool with_rates);
+  /// Rates of a place that is fixed to a link, after place().
+  [[nodiscard]] PlaceRates rates_of(std::uint32_t link, const Vec3d& at) const;
 
  private:
   BladeChain(const PlanTool& tool, RobotKinematics kinematics);
   Status find_values();
   void find_speed_limits();
-  void add_rates(const RobotJoint& joint, std::uint32_t parent, BladePlace& place) const;
+  void add_rates(const RobotJoint& joint, std::uint32_t parent, const Vec3d& at,
+                 PlaceRates& rates) const;
 
   Robot robot_;
   MountedBlade blade_;
   Affine3d world_from_root_;
   RobotKinematics kinematics_;
-  std::vector<std::uint32_t> joints_;  ///< Of the chain, from the root, that move.
   std::vector<std::uint32_t> moved_;
   std::vector<std::uint32_t> place_of_value_;  ///< In `moved_`, per value of the robot; kNone.
   std::vector<double> speed_limits_;

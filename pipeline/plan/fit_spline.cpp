@@ -5,6 +5,7 @@
 #include <exception>
 #include <limits>
 #include <memory>
+#include <utility>
 
 #include <Eigen/Cholesky>
 #include <ceres/problem.h>
@@ -27,7 +28,8 @@ constexpr double kMotionAtEnds = 1e-3;  ///< Differences at the ends, where the 
 /// Share of a limit of speed or acceleration up to which there is no cost, because the costs leave
 /// a small excess.
 constexpr double kOfLimit = 0.97;
-constexpr double kExcess = 2e-3;  ///< Share of a limit that is an error of one.
+constexpr double kNearness = 0.05;  ///< Share of the clearance that is an error of one.
+constexpr double kExcess = 2e-3;    ///< Share of a limit that is an error of one.
 
 /// The spline nearest to values at even times, by linear least squares with a little smoothing.
 std::vector<Values> fit_values(std::span<const Values> values, std::size_t intervals) {
@@ -65,6 +67,16 @@ class SplineProblem {
       const SplineWeights of = spline_weights(sample.time, spline_.duration, spline_.intervals());
       problem_.AddResidualBlock(new BladeCost(chain_, sample, scales, of.weights), nullptr,
                                 blocks(of.first, 4));
+    }
+  }
+
+  void add_kept_away(const KeptAway& kept_away) {
+    for (const NearPlace& near : kept_away.places) {
+      const SplineWeights of = spline_weights(near.time, spline_.duration, spline_.intervals());
+      problem_.AddResidualBlock(
+          new ClearanceCost(chain_, kept_away.shapes[near.shape], near, kept_away.margin,
+                            kNearness * kept_away.margin, of.weights),
+          nullptr, blocks(of.first, 4));
     }
   }
 
@@ -146,17 +158,24 @@ class SplineProblem {
 
 }  // namespace
 
+JointSpline spline_through(std::span<const Values> values, double duration, std::size_t intervals,
+                           const ValueLimits& limits) {
+  JointSpline spline;
+  spline.duration = duration;
+  spline.control = fit_values(values, intervals);
+  for (Values& control : spline.control)
+    control = control.cwiseMax(limits.lower).cwiseMin(limits.upper);
+  return spline;
+}
+
 Result<JointSpline> fit_spline(BladeChain& chain, const std::vector<TargetSample>& samples,
                                const ErrorScales& scales, const SplineLimits& limits,
-                               std::span<const Values> start, std::size_t intervals) {
-  JointSpline spline;
-  spline.duration = samples.back().time;
-  spline.control = fit_values(start, intervals);
-  for (Values& control : spline.control)
-    control = control.cwiseMax(limits.values.lower).cwiseMin(limits.values.upper);
+                               const KeptAway& kept_away, JointSpline start) {
+  JointSpline spline = std::move(start);
   try {
     SplineProblem problem(chain, spline);
     problem.add_errors(samples, scales);
+    problem.add_kept_away(kept_away);
     problem.add_smoothness();
     problem.add_limits(limits);
     problem.solve();

@@ -117,13 +117,21 @@ class PosedDistances {
     return least;
   }
 
-  [[nodiscard]] double hausdorff() const {
-    double most = 0;
-    for (std::size_t i = 0; i < on_curve_.size(); ++i) most = std::max(most, from_curve(i));
+  /// The largest distance, and the place of the curve where it is.
+  struct Farthest {
+    double distance = 0;
+    std::size_t at = 0;
+  };
+  [[nodiscard]] Farthest hausdorff() const {
+    Farthest most;
+    const auto take = [&](const Farthest& other) {
+      if (other.distance > most.distance) most = other;
+    };
+    for (std::size_t i = 0; i < on_curve_.size(); ++i) take({from_curve(i), i});
     for (const auto& [a, b] : edges_.edges) {
-      most = std::max(most, to_curve(on_lips_[a]));
-      most = std::max(most, to_curve(on_lips_[b]));
-      most = std::max(most, to_curve(0.5 * (on_lips_[a] + on_lips_[b])));
+      take(to_curve(on_lips_[a]));
+      take(to_curve(on_lips_[b]));
+      take(to_curve(0.5 * (on_lips_[a] + on_lips_[b])));
     }
     return most;
   }
@@ -135,10 +143,12 @@ class PosedDistances {
   }
 
  private:
-  [[nodiscard]] double to_curve(const Vec3d& place) const {
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 1; i < on_curve_.size(); ++i)
-      least = std::min(least, distance_to_segment(place, on_curve_[i - 1], on_curve_[i]));
+  [[nodiscard]] Farthest to_curve(const Vec3d& place) const {
+    Farthest least{std::numeric_limits<double>::infinity(), 0};
+    for (std::size_t i = 1; i < on_curve_.size(); ++i) {
+      const double distance = distance_to_segment(place, on_curve_[i - 1], on_curve_[i]);
+      if (distance < least.distance) least = {distance, i};
+    }
     return least;
   }
 
@@ -172,6 +182,7 @@ Result<WoundMeasures> measure_wound(const std::shared_ptr<const Character>& char
   TearOperation plain = tear;
   plain.options = {};
   plain.options.layers = tear.options.layers;
+  plain.options.weights = tear.options.weights;
   Result<TornModel> model = TornModel::create(character);
   if (!model) return model.error();
   std::vector<ChangeRecord> changes;
@@ -188,11 +199,15 @@ Result<WoundMeasures> measure_wound(const std::shared_ptr<const Character>& char
   const PosedPlaces curve(*character, path.anchors()), lips(*character, edges.ends);
   PosedDistances distances(curve, lips, edges);
   if (const Status status = distances.pose(pose); !status) return status;
-  measures.hausdorff = measures.hausdorff_in_clips = distances.hausdorff();
+  const PosedDistances::Farthest farthest = distances.hausdorff();
+  measures.hausdorff = measures.hausdorff_in_clips = farthest.distance;
+  measures.farthest_share =
+      static_cast<double>(farthest.at) / static_cast<double>(curve.size() - 1);
   measures.mean_distance = distances.mean();
   for (const ModelPose& of_clip : clip_poses(character)) {
     if (const Status status = distances.pose(of_clip); !status) return status;
-    measures.hausdorff_in_clips = std::max(measures.hausdorff_in_clips, distances.hausdorff());
+    measures.hausdorff_in_clips =
+        std::max(measures.hausdorff_in_clips, distances.hausdorff().distance);
   }
   return measures;
 }

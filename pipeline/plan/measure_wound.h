@@ -13,6 +13,7 @@ namespace sunder::plan {
 struct WoundMeasures {
   /// Infinity if there are no lips.
   double hausdorff = 0, mean_distance = 0, hausdorff_in_clips = 0;
+  double farthest_share = 0;  ///< Of the curve, about: the place of the largest distance.
   TearReport torn;
 };
 

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "core/internal/out_of_memory.h"
 #include "pipeline/plan/blade_chain.h"
+#include "pipeline/plan/clearance.h"
 #include "pipeline/plan/find_obstacles.h"
 #include "pipeline/plan/fit_spline.h"
 #include "pipeline/plan/inverse_kinematics.h"
@@ -28,6 +30,7 @@ constexpr double kLeastTolerance = 0.0005;  ///< Of the diagonal of the posed ch
 constexpr double kPlaceScale = 0.02, kDepthScale = 0.05;
 constexpr double kRate = 240;        ///< Samples of the trajectory per second.
 constexpr double kFrame = 1.0 / 60;  ///< A blade at least so often while a clip runs, seconds.
+constexpr int kMostRounds = 4;       ///< Of fits that add places to keep away from.
 constexpr double kOverLimit = 1e-9;
 constexpr int kMostDurations = 8;
 constexpr double kLongest = 16;  ///< Times the cut's duration that it may grow to.
@@ -56,6 +59,9 @@ Status check_inputs(const PlanTiming& timing, const PlanOptions& options) {
   if (!(options.tolerance >= 0) || !std::isfinite(options.tolerance))
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "the tolerance is %g; it must be at least 0", options.tolerance);
+  if (!(options.clearance > 0) || !std::isfinite(options.clearance))
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "the clearance is %g; it must be above 0", options.clearance);
   if (!(options.maximum_acceleration >= 0) || !std::isfinite(options.maximum_acceleration))
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "the greatest acceleration is %g; it must be at least 0",
@@ -94,17 +100,19 @@ class Planner {
     const Result<TargetPath> path = TargetPath::create(character_, target, *pose);
     if (!path) return path.error();
     if (const Status status = check_blade(target, *chain); !status) return status;
+    if (const Status status = check_shapes(); !status) return status;
     prepare(target, *path, *pose, *chain);
     for (int i = 0;; ++i) {
-      Result<bool> is_done = fit(*path, *chain);
+      const Result<bool> is_done = fit(*path, *chain);
       if (!is_done) return is_done.error();
       if (*is_done || i == kMostDurations || !lengthen()) break;
     }
-    if (!planned_.report.is_reachable) {
+    const bool has_motion = planned_.report.is_reachable ||
+                            planned_.report.obstacles.front().kind == PlanObstacle::Kind::wound;
+    if (!has_motion) {
       planned_.trajectory = {};
-      return std::move(planned_);
+      planned_.tear = {};
     }
-    if (const Status status = tear(*path); !status) return status;
     return std::move(planned_);
   }
 
@@ -115,6 +123,17 @@ class Planner {
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "the blade is %g m long; it cannot reach %g m below the surface",
                            chain.blade_length(), depth);
+  }
+
+  [[nodiscard]] Status check_shapes() const {
+    for (std::uint32_t i = 0; i < tool_.shapes.size(); ++i) {
+      if (tool_.shapes[i].bone >= tool_.robot.links.size())
+        return Status::failure(StatusCode::index_out_of_range, i,
+                               "shape %u: link %u does not exist; the robot has %zu", i,
+                               tool_.shapes[i].bone, tool_.robot.links.size());
+      if (const Status status = validate_collider(tool_.shapes[i].collider); !status) return status;
+    }
+    return {};
   }
 
   void prepare(const WoundTarget& target, const TargetPath& path, const ModelPose& pose,
@@ -153,13 +172,15 @@ class Planner {
     report.cut = timing_.cut;
     report.cut_begins = timeline.cut_begins();
     report.cut_ends = timeline.cut_ends();
-    const std::vector<std::vector<Values>> tracks =
-        track_samples(chain, samples_, scales_, limits_, options_.seeds);
+    Result<Clearance> clearance = Clearance::create(*character_, tool_, timing_, samples_);
+    if (!clearance) return clearance.error();
+    clearance_ = std::move(*clearance);
+    const std::vector<std::vector<Values>> tracks = tracks_of(chain);
     // What is told about the best track, unless a later one is followed.
     PlannedMotion first;
     double first_slowdown = 1;
     for (std::size_t i = 0; i < tracks.size(); ++i) {
-      if (const Status status = follow(tracks[i], intervals, chain); !status) return status;
+      if (const Status status = follow(tracks[i], intervals, path, chain); !status) return status;
       if (planned_.report.is_reachable) return true;
       if (i == 0) {
         first = planned_;
@@ -171,18 +192,80 @@ class Planner {
     return false;
   }
 
-  Status follow(const std::vector<Values>& start, std::size_t intervals, BladeChain& chain) {
+  /// Fits a spline to a track, and tears. The report says whether the curve is made.
+  Status follow(const std::vector<Values>& start, std::size_t intervals, const TargetPath& path,
+                BladeChain& chain) {
     PlanReport& report = planned_.report;
     report.obstacles.clear();
     slowdown_ = 1;
     if (!check_reach(chain, start)) return {};
-    Result<JointSpline> spline = fit_spline(chain, samples_, scales_, limits_, start, intervals);
+    Result<JointSpline> spline = fit(chain, start, intervals);
     if (!spline) return spline.error();
     write_trajectory(*spline, chain);
     check_rates(chain);
     measure_errors(*spline, chain);
     report.is_reachable = report.obstacles.empty() && check_fit(*spline, chain);
+    if (!report.is_reachable) return {};
+    if (const Status status = tear(path); !status) return status;
+    report.is_reachable = report.hausdorff <= report.tolerance;
+    if (!report.is_reachable)
+      report.obstacles.push_back({PlanObstacle::Kind::wound, "", wound_share_});
     return {};
+  }
+
+  /// Fits until the links keep their distance, or for some rounds.
+  Result<JointSpline> fit(BladeChain& chain, const std::vector<Values>& start,
+                          std::size_t intervals) {
+    PlanReport& report = planned_.report;
+    KeptAway kept_away{tool_.shapes, {}, options_.clearance};
+    report.least_clearance = std::numeric_limits<double>::infinity();
+    JointSpline spline = spline_through(start, samples_.back().time, intervals, limits_.values);
+    for (int round = 0;; ++round) {
+      Result<JointSpline> fitted =
+          fit_spline(chain, samples_, scales_, limits_, kept_away, std::move(spline));
+      if (!fitted || !clearance_->is_needed()) return fitted;
+      spline = std::move(*fitted);
+      const std::vector<NearPlace> near = clearance_->find(
+          chain, [&](double time) { return spline.at(time); }, 2 * options_.clearance);
+      const auto nearest =
+          std::min_element(near.begin(), near.end(),
+                           [](const auto& a, const auto& b) { return a.distance < b.distance; });
+      if (nearest != near.end()) report.least_clearance = nearest->distance;
+      const bool is_clear = nearest == near.end() || nearest->distance > 0.5 * options_.clearance;
+      if (is_clear || round == kMostRounds) {
+        if (!is_clear && nearest->distance <= 0)
+          report.obstacles.push_back({PlanObstacle::Kind::collision,
+                                      tool_.robot.links[tool_.shapes[nearest->shape].bone].name,
+                                      Timeline(timing_).share_at(nearest->time)});
+        return spline;
+      }
+      kept_away.places.insert(kept_away.places.end(), near.begin(), near.end());
+    }
+  }
+
+  /// The tracks, those that keep the links out of the character first.
+  std::vector<std::vector<Values>> tracks_of(BladeChain& chain) const {
+    std::vector<std::vector<Values>> tracks =
+        track_samples(chain, samples_, scales_, limits_, options_.seeds);
+    if (!clearance_->is_needed()) return tracks;
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t i = 0; i < tracks.size(); ++i) {
+      const double last = static_cast<double>(samples_.size() - 1);
+      double inside = 0;
+      for (const NearPlace& near : clearance_->find(
+               chain,
+               [&](double time) {
+                 return tracks[i][static_cast<std::size_t>(
+                     std::lround(last * time / samples_.back().time))];
+               },
+               0.0))
+        inside -= near.distance;
+      order.emplace_back(inside, i);
+    }
+    std::stable_sort(order.begin(), order.end());
+    std::vector<std::vector<Values>> sorted;
+    for (const auto& [inside, i] : order) sorted.push_back(std::move(tracks[i]));
+    return sorted;
   }
 
   /// @return whether inverse kinematics reach all of the curve; otherwise the report says why not.
@@ -350,6 +433,7 @@ class Planner {
     report.mean_distance = measured->mean_distance;
     report.hausdorff_in_clips = measured->hausdorff_in_clips;
     report.torn = measured->torn;
+    wound_share_ = measured->farthest_share;
     return {};
   }
 
@@ -363,8 +447,10 @@ class Planner {
   ErrorScales scales_;
   SplineLimits limits_;
   std::vector<TargetSample> samples_;
+  std::optional<Clearance> clearance_;
   double longest_ = 0, slowdown_ = 1;
   double fastest_share_ = 0, sharpest_share_ = 0;  ///< Of the value that was measured last.
+  double wound_share_ = 0;  ///< Of the place of the curve that the lips are farthest from.
   PlannedMotion planned_;
 };
 

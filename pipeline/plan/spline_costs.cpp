@@ -41,6 +41,39 @@ bool BladeCost::Evaluate(double const* const* control, double* errors, double** 
   return found.allFinite();
 }
 
+ClearanceCost::ClearanceCost(BladeChain& chain, const BoneCollider& shape, const NearPlace& near,
+                             double margin, double scale, const std::array<double, 4>& weights)
+    : chain_(chain), shape_(shape), near_(near), margin_(margin), scale_(scale), weights_(weights) {
+  set_num_residuals(1);
+  mutable_parameter_block_sizes()->assign(4, static_cast<int>(chain.size()));
+}
+
+bool ClearanceCost::Evaluate(double const* const* control, double* errors, double** rates) const {
+  const auto count = static_cast<Eigen::Index>(chain_.size());
+  Values values = Values::Zero(count);
+  for (std::size_t k = 0; k < 4; ++k)
+    values += weights_[k] * Eigen::Map<const Values>(control[k], count);
+  BladePlace blade;
+  chain_.place({values.data(), chain_.size()}, blade, false);
+  const Collider collider = posed_collider(shape_, chain_.frames()[shape_.bone]);
+  const bool is_below = near_.normal.squaredNorm() > 0;
+  const SurfaceDistance of_shape = distance_to(collider, near_.place);
+  const double distance =
+      is_below ? (collider.place - near_.place).dot(near_.normal) : of_shape.distance;
+  errors[0] = std::max(0.0, margin_ - distance) / scale_;
+  Eigen::RowVectorXd by_value = Eigen::RowVectorXd::Zero(count);
+  if (rates != nullptr && errors[0] > 0) {
+    // The shape moves away from the place against its normal.
+    const Vec3d away = is_below ? near_.normal : Vec3d(-of_shape.normal);
+    const Vec3d at = is_below ? collider.place : near_.place;
+    by_value = -away.transpose() * chain_.rates_of(shape_.bone, at) / scale_;
+  }
+  for (std::size_t k = 0; rates != nullptr && k < 4; ++k)
+    if (rates[k] != nullptr)
+      Eigen::Map<Eigen::RowVectorXd>(rates[k], count) = weights_[k] * by_value;
+  return std::isfinite(errors[0]);
+}
+
 StencilCost::StencilCost(std::vector<double> stencil, Values factors, Values offset)
     : stencil_(std::move(stencil)), factors_(std::move(factors)), offset_(std::move(offset)) {
   set_num_residuals(static_cast<int>(factors_.size()));

@@ -7,6 +7,7 @@
 
 #include "pipeline/plan/blade_chain.h"
 #include "pipeline/plan/blade_errors.h"
+#include "pipeline/plan/clearance.h"
 #include "pipeline/plan/target_path.h"
 
 namespace sunder::plan {
@@ -22,6 +23,22 @@ class BladeCost final : public ceres::CostFunction {
   BladeChain& chain_;
   const TargetSample& sample_;
   ErrorScales scales_;
+  std::array<double, 4> weights_;
+};
+
+/// By how much a link's shape is nearer to a place of the character than the margin, divided by a
+/// scale; 0 beyond it.
+class ClearanceCost final : public ceres::CostFunction {
+ public:
+  ClearanceCost(BladeChain& chain, const BoneCollider& shape, const NearPlace& near, double margin,
+                double scale, const std::array<double, 4>& weights);
+  bool Evaluate(double const* const* control, double* errors, double** rates) const override;
+
+ private:
+  BladeChain& chain_;
+  const BoneCollider& shape_;
+  NearPlace near_;
+  double margin_, scale_;
   std::array<double, 4> weights_;
 };
 

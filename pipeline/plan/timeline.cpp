@@ -6,7 +6,7 @@ namespace sunder::plan {
 namespace {
 
 /// Share of the cut in which the blade gains speed, and in which it loses it.
-constexpr double kEasedShare = 0.15;
+constexpr double kSpeedRamp = 0.15;
 
 /// From 0 to 1 with two derivatives that are 0 at both ends.
 double eased(double x) {
@@ -21,10 +21,10 @@ double eased_sum(double x) { return x * x * x * x * (2.5 + x * (x - 3)); }
 
 double Timeline::share_at(double time) const {
   const double u = std::clamp((time - timing_.approach) / timing_.cut, 0.0, 1.0);
-  const double speed = 1 / (1 - kEasedShare);
-  if (u < kEasedShare) return speed * kEasedShare * eased_sum(u / kEasedShare);
-  if (u > 1 - kEasedShare) return 1 - speed * kEasedShare * eased_sum((1 - u) / kEasedShare);
-  return speed * (u - kEasedShare / 2);
+  const double speed = 1 / (1 - kSpeedRamp);
+  if (u < kSpeedRamp) return speed * kSpeedRamp * eased_sum(u / kSpeedRamp);
+  if (u > 1 - kSpeedRamp) return 1 - speed * kSpeedRamp * eased_sum((1 - u) / kSpeedRamp);
+  return speed * (u - kSpeedRamp / 2);
 }
 
 double Timeline::lift_at(double time) const {

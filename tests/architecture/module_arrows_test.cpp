@@ -51,7 +51,7 @@ const std::map<std::string, std::set<std::string>> kMayUse = {
       "ragdoll"}},
     {"plan",
      {"bodies", "core", "robot", "operation", "skinning", "weights", "certificate", "tear",
-      "plan"}},
+      "particles", "plan"}},
     {"binding", {"core", "operation", "skinning", "weights", "binding"}},
     {"io", {"core", "robot", "operation", "skinning", "weights", "io"}},
     {"bindings",

@@ -301,6 +301,99 @@ TEST(PlanMotion, a_limit_that_stops_the_blade_is_named_and_without_it_the_curve_
   EXPECT_EQ(far->report.last_share, 0);
 }
 
+/// The arm of docs/plan.md's picture: a ball around the wrist and capsules along the arm.
+PlanTool arm_with_shapes() {
+  PlanTool tool = test::six_axis_arm(Vec3d(0.2, 0.2, 1.0));
+  const auto capsule = [&](std::uint32_t link, double radius, double from, double to) {
+    tool.shapes.push_back(
+        {link, {Collider::Capsule{radius, 0.5 * (to - from)}, Vec3d(0, 0.5 * (from + to), 0)}});
+  };
+  capsule(2, 0.05, 0, 0.5);
+  capsule(3, 0.04, 0, 0.4);
+  capsule(5, 0.03, 0, 0.05);
+  return tool;
+}
+
+/// Whether the middle line of a capsule comes nearer to the vertices than its radius, at many
+/// times: from positions of the tests' reference.
+double least_distance(const PlanTool& tool, const RobotTrajectory& trajectory,
+                      const PlanTiming& timing) {
+  const auto motion = RobotMotion::create(tool.robot, trajectory);
+  std::vector<Affine3d> frames(tool.robot.links.size());
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i <= 100; ++i) {
+    const double time = motion->last_time() * i / 100;
+    EXPECT_TRUE(motion->pose_at(time, frames, tool.world_from_root));
+    const ModelPose pose = pose_at(*tube(), timing, time);
+    const std::vector<Vec3d> posed = test::posed_positions(*tube(), 0, pose);
+    for (const BoneCollider& shape : tool.shapes) {
+      const auto& capsule = std::get<Collider::Capsule>(shape.collider.shape);
+      const Vec3d half(0, capsule.half_length, 0);
+      const std::vector<Vec3d> line = {frames[shape.bone] * Vec3d(shape.collider.place - half),
+                                       frames[shape.bone] * Vec3d(shape.collider.place + half)};
+      for (const Vec3d& vertex : posed)
+        least = std::min(least, to_polyline(vertex, line) - capsule.radius);
+    }
+  }
+  return least;
+}
+
+TEST(PlanMotion, links_stay_outside_of_the_character) {
+  const PlanTiming timing = while_it_bends();
+  const WoundTarget target = front_curve(timing);
+  const PlanTool tool = arm_with_shapes();
+  const auto planned = plan_motion(tube(), target, timing, tool);
+  ASSERT_TRUE(planned) << planned.error().text();
+  ASSERT_TRUE(planned->report.is_reachable);
+  EXPECT_GT(planned->report.least_clearance, 0);
+  EXPECT_LE(planned->report.hausdorff, planned->report.tolerance);
+  // The tube's vertices are as dense as the places that plans look at.
+  EXPECT_GT(least_distance(tool, planned->trajectory, timing), -0.002);
+}
+
+TEST(PlanMotion, a_link_that_cannot_stay_outside_is_named) {
+  const PlanTiming timing = while_it_bends();
+  PlanTool tool = arm_with_shapes();
+  std::get<Collider::Capsule>(tool.shapes[2].collider.shape).radius = 0.2;  // wider than the blade
+  const auto planned = plan_motion(tube(), front_curve(timing), timing, tool);
+  ASSERT_TRUE(planned) << planned.error().text();
+  ASSERT_FALSE(planned->report.is_reachable);
+  ASSERT_FALSE(planned->report.obstacles.empty());
+  EXPECT_EQ(planned->report.obstacles[0].kind, PlanObstacle::Kind::collision);
+  EXPECT_EQ(planned->report.obstacles[0].value, "bend");
+  tool.shapes.pop_back();
+  const auto without = plan_motion(tube(), front_curve(timing), timing, tool);
+  EXPECT_TRUE(without->report.is_reachable);
+}
+
+TEST(PlanMotion, a_tear_that_meets_another_part_is_no_plan) {
+  // Two sheets, one 3 cm above the other: the blade to the lower one passes the upper one.
+  Character both = test::make_sheet(12);
+  Mesh above = both.meshes[0];
+  above.name = "above";
+  for (Vec3f& place : above.positions) place.z() += 0.03f;
+  both.meshes.push_back(above);
+  const auto character = std::make_shared<const Character>(std::move(both));
+  PlanTiming timing;
+  timing.pose = BindPose{};
+  WoundTarget target;
+  target.places = test::nearest_places(character, *make_pose(*character, timing.pose),
+                                       {Vec3d(0.3, 0.4, -1), Vec3d(0.7, 0.5, -1)});
+  ASSERT_EQ(target.places[0].mesh, 0u);
+  const auto hand = free_hand(character, target, timing, 0.1);
+  ASSERT_TRUE(hand);
+  const auto planned = plan_motion(character, target, timing, *hand);
+  ASSERT_TRUE(planned) << planned.error().text();
+  EXPECT_FALSE(planned->report.is_reachable);
+  ASSERT_EQ(planned->report.obstacles.size(), 1u);
+  EXPECT_EQ(planned->report.obstacles[0].kind, PlanObstacle::Kind::wound);
+  EXPECT_FALSE(planned->trajectory.times.empty());
+  target.places = test::nearest_places(character, *make_pose(*character, timing.pose),
+                                       {Vec3d(0.3, 0.4, 1), Vec3d(0.7, 0.5, 1)});
+  const auto upper = plan_motion(character, target, timing, *hand);
+  EXPECT_TRUE(upper->report.is_reachable);
+}
+
 class PlanRefusals : public testing::Test {
  protected:
   void refused(StatusCode code, const char* text) {
@@ -384,6 +477,12 @@ TEST_F(PlanRefusals, of_tools_and_times) {
   timing = while_it_bends();
   options.tolerance = -1;
   refused(StatusCode::invalid_argument, "tolerance");
+  options = {};
+  options.clearance = -1;
+  refused(StatusCode::invalid_argument, "clearance");
+  options = {};
+  tool.shapes.push_back({40, {Collider::Sphere{1}}});
+  refused(StatusCode::index_out_of_range, "shape 0: link 40");
 }
 
 }  // namespace

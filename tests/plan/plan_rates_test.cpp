@@ -140,6 +140,27 @@ TEST(PlanRates, errors_of_the_blade_at_control_points) {
   }
 }
 
+TEST(PlanRates, distances_of_links_from_places) {
+  test::Random random(5);
+  for (int i = 0; i < 30; ++i) {
+    auto chain = plan::BladeChain::create(random_tool(random));
+    ASSERT_TRUE(chain);
+    BoneCollider shape{
+        1 + random.index(7),
+        {Collider::Sphere{0.2}, 0.3 * random.direction(), Quatd(0.5, 0.5, -0.5, 0.5)}};
+    if (i % 3 == 1) shape.collider.shape = Collider::Capsule{0.1, 0.3};
+    if (i % 3 == 2) shape.collider.shape = Collider::Box{Vec3d(0.1, 0.2, 0.3)};
+    plan::NearPlace near;
+    near.place = 2 * random.direction();
+    if (i % 2 == 0) near.normal = random.direction();
+    const auto of = plan::spline_weights(random.uniform(0, 2), 2, 9);
+    std::vector<plan::Values> control;
+    for (int k = 0; k < 4; ++k) control.push_back(random_values(random, chain->size()));
+    check_cost(plan::ClearanceCost(*chain, shape, near, 20, 0.7, of.weights), control);
+    check_cost(plan::ClearanceCost(*chain, shape, near, -20, 0.7, of.weights), control);
+  }
+}
+
 TEST(PlanRates, sums_of_control_points_and_their_excess) {
   test::Random random(3);
   for (int i = 0; i < 20; ++i) {

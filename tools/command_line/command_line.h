@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "tools/plan/plan_request.h"
 #include "tools/verbs.h"
 
 namespace sunder::tools {

@@ -2,6 +2,7 @@
 
 #include "tools/command_line/number_option.h"
 #include "tools/command_line/options.h"
+#include "tools/plan/plan_request.h"
 
 namespace sunder::tools {
 namespace {

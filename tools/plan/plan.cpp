@@ -20,7 +20,6 @@
 #include "tools/plan/curve_file.h"
 #include "tools/plan/hand_file.h"
 #include "tools/plan/plan_report.h"
-#include "tools/verbs.h"
 
 namespace sunder::tools {
 namespace {
@@ -88,6 +87,11 @@ ExitCode read_robot(const PlanRequest& request, const Messages& messages, PlanRu
                     Status::failure(StatusCode::not_found, kNone, "the robot has no link '%.80s'",
                                     request.robot.link.c_str()),
                     ExitCode::usage, name_advice(request.robot.link, "links", names));
+  if (loaded->model.character != nullptr) {
+    Result<std::vector<BoneCollider>> shapes = fit_colliders(*loaded->model.character);
+    if (!shapes) return complain(file, shapes.error(), ExitCode::unreadable_input);
+    run.tool.shapes = std::move(*shapes);
+  }
   run.tool.robot = std::move(loaded->robot);
   run.tool.world_from_root = request.robot.place * loaded->model_from_root;
   return ExitCode::ok;

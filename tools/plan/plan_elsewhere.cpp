@@ -1,5 +1,5 @@
 #include "tools/model/ceres_program.h"
-#include "tools/verbs.h"
+#include "tools/plan/plan_request.h"
 
 namespace sunder::tools {
 

@@ -13,6 +13,8 @@ const char* kind_name(PlanObstacle::Kind kind) {
     case PlanObstacle::Kind::joint_limit: return "joint_limit";
     case PlanObstacle::Kind::joint_speed: return "joint_speed";
     case PlanObstacle::Kind::acceleration: return "acceleration";
+    case PlanObstacle::Kind::collision: return "collision";
+    case PlanObstacle::Kind::wound: return "wound";
     case PlanObstacle::Kind::reach: break;
   }
   return "reach";
@@ -49,6 +51,14 @@ std::string obstacle_text(const PlanObstacle& obstacle) {
     case PlanObstacle::Kind::acceleration:
       return printed("'%s' would have to accelerate too much at %.0f %% of the curve", name.c_str(),
                      at);
+    case PlanObstacle::Kind::collision:
+      return printed("link '%s' would be inside the model at %.0f %% of the curve", name.c_str(),
+                     at);
+    case PlanObstacle::Kind::wound:
+      return printed(
+          "joints follow the curve, but the tear leaves it at %.0f %%: the blade meets "
+          "other parts of the surface, or the surface is not connected there",
+          at);
     case PlanObstacle::Kind::reach: break;
   }
   return printed("%.0f %% of the curve is out of reach", at);
@@ -76,6 +86,7 @@ Json plan_json(const PlanRequest& request, const PlanReport& report) {
   json["depth_error"] = error_json(report.most_depth_error, report.mean_depth_error);
   json["angle_error"] =
       error_json(degrees(report.most_angle_error), degrees(report.mean_angle_error));
+  json["least_clearance"] = number(report.least_clearance);
   json["lips"] = {{"hausdorff", number(report.hausdorff)},
                   {"mean_distance", number(report.mean_distance)},
                   {"hausdorff_in_clips", number(report.hausdorff_in_clips)}};
@@ -102,6 +113,8 @@ std::string plan_summary(const PlanReport& report) {
                   report.mean_depth_error);
   text += printed("angle       off by %.3g degrees at most, %.3g on average\n",
                   degrees(report.most_angle_error), degrees(report.mean_angle_error));
+  if (std::isfinite(report.least_clearance))
+    text += printed("links       at least %.3g m from the model\n", report.least_clearance);
   for (const ValueMargin& margin : report.values) {
     text += printed("%-11s %.4g to %.4g", margin.name.c_str(), margin.least, margin.greatest);
     if (std::isfinite(margin.to_limits)) text += printed(", %.3g to its limits", margin.to_limits);

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "tools/messages/json.h"
-#include "tools/verbs.h"
+#include "tools/plan/plan_request.h"
 
 namespace sunder::tools {
 

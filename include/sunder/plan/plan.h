@@ -1,6 +1,7 @@
 #pragma once
 
 #include <sunder/operation/operation.h>
+#include <sunder/particles/fitted_colliders.h>
 #include <sunder/robot/robot.h>
 #include <sunder/robot/trajectory.h>
 #include <sunder/tear/contact.h>
@@ -50,6 +51,10 @@ struct PlanTool {
   Robot robot;
   MountedBlade blade;
   Affine3d world_from_root = Affine3d::Identity();  ///< In the character's model space.
+  /// Shapes of links, bones being links: those that fit_colliders() finds around the robot's
+  /// character. They stay outside of the character but for those of the blade's link. Links without
+  /// a shape may be anywhere.
+  std::vector<BoneCollider> shapes;
 };
 
 struct PlanOptions {
@@ -58,6 +63,7 @@ struct PlanOptions {
   double tolerance = 0.0;
   double maximum_acceleration = 0.0;  ///< Of every value, rad/s^2 or m/s^2; 0: no limit.
   double spacing = 0.002;             ///< SweepOptions::spacing of the tear.
+  double clearance = 0.005;           ///< Wanted between links and character, metres; > 0.
   std::uint32_t seeds = 24;           ///< Random starts of the inverse kinematics.
   TearOptions tear;                   ///< Of the tear that is made.
 };
@@ -78,22 +84,28 @@ struct PlanObstacle {
     joint_speed,   ///< `value` would have to move faster than its limit.
     acceleration,  ///< `value` would have to accelerate more than is allowed.
     reach,         ///< No values of the joints, within limits or not, bring the blade there.
+    collision,     ///< The link `value` would be inside the character.
+    /// Joints follow the curve, but the tear does not: the blade meets other parts of the surface,
+    /// or the surface along the curve is not connected.
+    wound,
   };
   Kind kind = Kind::reach;
-  std::string value;  ///< Name in Robot::values; empty for `reach`.
-  double at = 0;      ///< Share of the curve's length where it is met.
+  /// Name in Robot::values, or of a link; empty for `reach` and `wound`.
+  std::string value;
+  double at = 0;  ///< Share of the curve's length where it is met.
 };
 
 struct PlanReport {
   double curve_length = 0;  ///< Metres, in the pose in which the motion begins.
   double tolerance = 0;     ///< Metres.
-  /// Whether joints bring the blade to all of the curve, within all limits.
+  /// Whether joints bring the blade to all of the curve, within all limits, and the lips that it
+  /// tears in a copy are within the tolerance of the curve.
   bool is_reachable = false;
   /// The longest part of the curve that joints reach, shares of its length. 0 and 0: none.
   double first_share = 0, last_share = 0;
   std::vector<PlanObstacle> obstacles;  ///< Empty if reachable; the first one met first.
 
-  // The following is about a reachable curve.
+  // The following is about a reachable curve, or about the last motion that was tried.
   double cut = 0;                       ///< Seconds that the cut takes.
   double cut_begins = 0, cut_ends = 0;  ///< Seconds of the trajectory.
   std::vector<ValueMargin> values;      ///< One per column of the trajectory.
@@ -101,17 +113,21 @@ struct PlanReport {
   double most_place_error = 0, mean_place_error = 0;
   double most_depth_error = 0, mean_depth_error = 0;  ///< Metres.
   double most_angle_error = 0, mean_angle_error = 0;  ///< Radians.
+  /// Least distance of a link's shape from the character at 65 times, metres; infinity without
+  /// shapes, and if no link comes near.
+  double least_clearance = 0;
   /// Of the lips that the motion tears in a copy: largest and mean distance of lips and curve from
   /// one another, in the pose in which the cut begins, and the largest one in all sampled poses of
-  /// all clips. Infinity if it tears nothing.
+  /// all clips. Infinity if it tears nothing; 0 if no motion was found.
   double hausdorff = 0, mean_distance = 0, hausdorff_in_clips = 0;
   TearReport torn;  ///< Of that copy, which is torn without width and walls.
 };
 
 struct PlannedMotion {
   PlanReport report;
-  RobotTrajectory trajectory;  ///< Only values that move the blade. Empty if not reachable.
-  TearOperation tear;          ///< What it does. Empty if not reachable.
+  /// Only values that move the blade. Empty if not reachable, unless the obstacle is `wound`.
+  RobotTrajectory trajectory;
+  TearOperation tear;  ///< What it does.
 };
 
 /// Finds the motion. The same input gives the same bits on one machine; one thread.
