@@ -39,6 +39,8 @@ constexpr std::array kFamilies = {
     Family{"counts", "models of 65,534 to 65,537 vertices", true, 1, vertex_counts},
     Family{"refits", "weights fitted over poses that determine nothing", true, 10, singular_refits},
     Family{"tissue", "soft bodies of any material in steps of any length", true, 20, moving_tissue},
+    Family{"mask", "masks of wounds that follow operations, undo and redo", false, 20,
+           followed_masks},
     Family{"files", "operations on rigged models in files", false, 20, models_in_files},
     Family{"scenes", "instances made, torn, destroyed, saved and restored", false, 20, busy_scenes},
 };
