@@ -44,6 +44,8 @@ constexpr std::array kFamilies = {
     Family{"tissue", "soft bodies of any material in steps of any length", true, 20, moving_tissue},
     Family{"authored", "tissue of random fields and perforations that yields, touches and tears",
            true, 20, authored_tissue},
+    Family{"mask", "masks of wounds that follow operations, undo and redo", false, 20,
+           followed_masks},
     Family{"files", "operations on rigged models in files", false, 20, models_in_files},
     Family{"scenes", "instances made, torn, destroyed, saved and restored", false, 20, busy_scenes},
 };

@@ -42,4 +42,7 @@ CaseFunction every_capacity, failing_allocations, vertex_counts;
 // Weights, tissue, scenes, files (weight_cases.cpp, tissue_cases.cpp, …).
 CaseFunction singular_refits, moving_tissue, authored_tissue, busy_scenes, models_in_files;
 
+// Masks of wounds (mask_cases.cpp).
+CaseFunction followed_masks;
+
 }  // namespace sunder::stress

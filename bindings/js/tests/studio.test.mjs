@@ -435,6 +435,36 @@ test('through a hole the inside is seen as flesh', needsChromium, async () => wi
   assert.deepEqual([seen.before, seen.after, seen.undone], [false, true, false]);
 }));
 
+test('blood is seen beside a wound, and undo takes it away', needsChromium, async () => withStudio(async (page) => {
+  await takeFrames(page);
+  const seen = await page.evaluate(() => {
+    const { studio, stage } = globalThis.studio, { actor } = studio, { min, max } = actor.box;
+    frames(1);
+    const x = (min.x + max.x) / 2, y = min.y + 0.7 * (max.y - min.y), at = (dx, dy) => ({ base: [x + dx, y + dy, max.z + 1], tip: [x + dx, y + dy, min.z - 1] });
+    actor.instance.tear([at(-0.04 * actor.size, -0.1 * actor.size), at(0.03 * actor.size, 0.1 * actor.size)]);
+    frames(3, 0);
+    const pixels = () => {
+      const canvas = document.getElementById('canvas'), context = new OffscreenCanvas(canvas.width, canvas.height).getContext('2d');
+      stage.draw();
+      context.drawImage(canvas, 0, 0);
+      return context.getImageData(0, 0, canvas.width, canvas.height).data;
+    };
+    const shown = pixels();
+    actor.instance.undo();
+    frames(3, 0);
+    const undone = pixels();
+    const isRed = (of, i) => of[i + 3] > 250 && of[i] > 2 * of[i + 1] && of[i] > 2 * of[i + 2];
+    let [red, left] = [0, 0];
+    for (let i = 0; i < shown.length; i += 4) {
+      red += isRed(shown, i) && !isRed(undone, i) ? 1 : 0;
+      left += isRed(undone, i) && !isRed(shown, i) ? 1 : 0;
+    }
+    return { red, left };
+  });
+  assert.ok(seen.red > 100, `${seen.red} pixels of blood`);
+  assert.ok(seen.left < 20, `${seen.left} pixels of blood that stay`);
+}));
+
 test('weights that are deliberately wrong are seen where the character was torn, and their bound is said', needsChromium, async (t) => withStudio(async (page) => {
   await takeFrames(page);
   const seen = await page.evaluate(() => {

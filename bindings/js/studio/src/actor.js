@@ -3,6 +3,7 @@ import * as THREE from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { Sunder } from 'sunder-tear';
 import { SunderObject } from '../../src/three/index.js';
+import { Blood } from './blood.js';
 import { Inside } from './inside.js';
 
 /** Wounds of this share of the size are meant, when tension is chosen. */
@@ -40,6 +41,7 @@ export class Actor {
     actor.inside = new Inside(actor.object.children.flatMap(({ material }) => material));
     for (const mesh of actor.object.children) mesh.castShadow = mesh.receiveShadow = true;
     actor.size = actor.box.getSize(new THREE.Vector3()).length() || 1;
+    actor.blood = new Blood(actor.instance, actor.object, actor.size);
     return actor;
   }
 
@@ -88,6 +90,7 @@ export class Actor {
   dispose() {
     this.object.removeFromParent();
     this.object.dispose();
+    this.blood.dispose();
     this.tissue.dispose();
     this.parts.dispose();
     this.model.dispose();

@@ -91,6 +91,7 @@ export class Studio {
       for (const { glb } of pieces) models.push(await Sunder.load(glb, { soft: false }));
       if (actor !== this.actor) throw new Error('another character was opened meanwhile');
       actor.tissue.restore(snapshot, [actor.model]);
+      actor.blood.restart();
     } catch (error) {
       for (const model of models) model.dispose();
       throw error;
@@ -126,6 +127,7 @@ export class Studio {
     for (const hand of this.hands) this.#attempt(() => hand.feel({ actor, settings: this.#settings }));
     const { stats } = actor.tissue, updated = performance.now();
     actor.object.update();
+    actor.blood.update();
     let bytes = actor.object.uploadedBytes;
     for (const piece of this.#pieces) {
       piece.drawn.update();
