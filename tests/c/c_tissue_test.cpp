@@ -257,7 +257,9 @@ struct AuthoredAsset {
     const sunder_character made = test::create(character);
     sunder_asset asset = 0;
     const sunder_status status = sunder_create_asset(made, &options, &asset);
-    if (status == SUNDER_OK) EXPECT_DONE(sunder_destroy_asset(asset));
+    if (status == SUNDER_OK) {
+      EXPECT_DONE(sunder_destroy_asset(asset));
+    }
     EXPECT_DONE(sunder_destroy_character(made));
     return status;
   }
