@@ -11,6 +11,7 @@
 #include "support/machine/say.h"
 #include "support/models/hard_operations.h"
 #include "support/models/random_operations.h"
+#include "support/models/rigs.h"
 #include "support/oracles/particle_laws.h"
 
 namespace sunder::stress {
