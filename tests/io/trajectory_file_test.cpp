@@ -3,7 +3,6 @@
 #include <sunder/io/trajectory_file.h>
 
 #include <cmath>
-
 #include <fstream>
 #include <string>
 
