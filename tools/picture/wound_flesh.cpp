@@ -363,7 +363,7 @@ void WoundFlesh::add(const std::vector<DeformedMesh>& closed, const std::vector<
       scene.lips.push_back(
           {ground.open[ground.at({span.a, i})], ground.open[ground.at({span.b, i})]});
   // Fresh lips are pale: blood comes as they open.
-  scene.blood_reach = std::min(kBloodOfLength * length_, ground.widest);
+  scene.blood_reach = std::min(kBloodOfLength * length_, 2 * ground.widest);
 }
 
 std::vector<WoundFlesh::Bed> WoundFlesh::make_beds(const std::vector<DeformedMesh>& closed,
