@@ -92,7 +92,8 @@ class Binding:
     def is_native(self, name):
         """Whether a struct has pointers, and is no set of options that a program fills in."""
         pointers = [field['type'].replace('const ', '').rstrip('* ') for field in self.structs[name]['fields'] if field['type'].endswith('*')]
-        return bool(pointers) and (name not in self.makers or any(to in self.structs and self.is_native(to) for to in pointers))
+        is_of_native = any(to in self.structs and self.is_native(to) for to in pointers)
+        return bool(pointers) and (name not in self.makers or (is_of_native and not name.endswith('_options')))
 
     def struct_name(self, name):
         short = RENAMED.get(name) or pascal(name[len('sunder_'):])
