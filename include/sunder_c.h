@@ -984,8 +984,8 @@ typedef struct sunder_collider {
 typedef struct sunder_force_tearing_options {
   uint32_t struct_size;
   uint32_t reserved;
-  double length; /* as a fraction of the particles' range, in (0, 2] */
-  double metres; /* > 0; for instance a speed times the time since the last call */
+  double length;            /* as a fraction of the particles' range, in (0, 2] */
+  double metres;            /* > 0; for instance a speed times the time since the last call */
   double metres_per_second; /* greatest speed; 0: any */
   double least_piece_area;  /* m^2 in the pose: tears that would cut off less are not made */
 } sunder_force_tearing_options;
