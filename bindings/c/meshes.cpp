@@ -115,7 +115,7 @@ sunder_status sunder_save_instance(sunder_scene scene, sunder_instance instance,
     const sunder::TornModel* const model = found.instance->model();
     const sunder::Character* torn = &found.instance->character();
     sunder::Character scarred;
-    if (model != nullptr && !model->scars().empty()) {
+    if (model != nullptr && !sunder::scars_of(*model).empty()) {
       scarred = *torn;
       sunder::mark_scars(*model, scarred);
       torn = &scarred;

@@ -22,6 +22,16 @@ void run_forward(const TornModel& model, const SurfacePose& pose, Index tip, Sho
     tear.direction = normalized(tear.direction + forward);
 }
 
+/// Neighbouring blades of a stroke must differ by less than 90 degrees: where the surface folds
+/// over by more between two places, the tear ends.
+void end_at_fold(const Vec3d& normal, ShortTear& tear) {
+  const Vec3d* last = &normal;
+  for (std::size_t i = 0; i < tear.path.size(); ++i) {
+    if (!(dot(*last, tear.path[i].second) > kLeastForwardCosine)) return tear.path.resize(i);
+    last = &tear.path[i].second;
+  }
+}
+
 /// Along a perforation.
 ShortTear place_course(const Tissue& tissue, const SurfacePose& pose, const TearStart& start) {
   ShortTear tear;
@@ -31,6 +41,8 @@ ShortTear place_course(const Tissue& tissue, const SurfacePose& pose, const Tear
   tear.from = start.is_tip ? pose.place(tissue.model, start.point) : tear.path.front().first;
   const Vec3d normal = start.is_tip ? pose.normal(tissue.model, start.point) : tear.path[0].second;
   if (!start.is_tip) tear.path.erase(tear.path.begin());
+  end_at_fold(normal, tear);
+  if (tear.path.empty()) return tear;
   tear.direction = normalized(Vec3d(tear.path.front().first - tear.from));
   if (!tear.direction.isZero(0)) tear.normal = normal;
   return tear;

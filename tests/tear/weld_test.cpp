@@ -79,12 +79,12 @@ void weld_all(std::uint64_t seed, std::uint32_t operations, bool has_fillings, S
   sums.runs += report.runs;
   if (report.runs == 0) return;
   ++sums.welds;
-  EXPECT_FALSE(model.scars().empty());
+  EXPECT_FALSE(scars_of(model).empty());
   const std::uint64_t welded = model.digest();
   ChangeRecord undone, redone;
   ASSERT_TRUE(model.undo(&undone));
   EXPECT_EQ(model.digest(), torn);
-  EXPECT_TRUE(model.scars().empty());
+  EXPECT_TRUE(scars_of(model).empty());
   EXPECT_EQ(undone.welded, change.welded);
   ASSERT_TRUE(model.redo(&redone));
   EXPECT_EQ(model.digest(), welded);

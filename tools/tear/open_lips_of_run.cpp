@@ -60,7 +60,7 @@ Result<WrittenModel> written_model(const TearRun& run) {
   const bool is_open = run.opening && run.opening->widest_gap > 0;
   const bool gets_flesh =
       run.request.flesh.use == FleshOption::Use::flesh && has_fillings(run.model);
-  if (!is_open && !gets_flesh && !run.blood && run.model.scars().empty())
+  if (!is_open && !gets_flesh && !run.blood && scars_of(run.model).empty())
     return WrittenModel{std::shared_ptr<const Character>(std::shared_ptr<void>(), &closed), {}};
   const Result<FleshMaterials> flesh = FleshMaterials::create(run);
   if (!flesh) return flesh.error();

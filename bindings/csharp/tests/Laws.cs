@@ -67,7 +67,7 @@ namespace Sunder.Tests
       command = whole.Weld(new[] { new Vector3d(0, 0.5, 0) });
       scene.Update(0);
       Expect.That(command.Result.Runs > 0 && whole.Digest != severed, "a weld");
-      Expect.Throws<ArgumentException>(() => whole.Weld(new Vector3d[0]), "no places");
+      Expect.Throws<ArgumentException>(() => whole.Weld(new Vector3d[0]), "is empty");
       Detachment detachment = Detachment.Default;
       detachment.Point = new Vector3d(0, 3, 0);
       command = instance.Detach(detachment);

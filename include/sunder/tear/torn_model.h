@@ -97,14 +97,11 @@ class SUNDER_API TornModel {
   /// Closes wounds: lips that lie on one another in bind space become one surface again, walls and
   /// caps between them go. Where one lip has a point that the other lacks, because another wound
   /// crosses it, both have it afterwards. The result lies where the untorn surface does, as far as
-  /// the weights of the points do; scars() lists its edges. docs/tear.md describes the method.
+  /// the weights of the points do; scars_of() lists its edges. docs/tear.md describes the method.
   /// @return as tear(); runs: the joined runs of edges, 0 if there was nothing to close; blocked:
-  ///         edges of lips that could not be joined. O(triangles that operations changed).
+  ///         edges of lips that could not be joined, whose walls and caps are gone too. O(triangles
+  ///         that operations changed), and O(lips) for each place; allocates.
   Result<TearReport> weld(const ModelPose& pose, const Weld& weld, ChangeRecord* change = nullptr);
-  /// Edges that were welded, as pairs of surface points, in the order of the welds. A later tear
-  /// may have opened an edge again, or put points on it. Valid until the next change; empty without
-  /// welds.
-  [[nodiscard]] std::span<const std::array<std::uint32_t, 2>> scars() const;
 
   /// Lists and measures the connected component that now contains the triangle that names a piece,
   /// in the pose of the most recent operation or call of a stroke.
@@ -239,11 +236,17 @@ class SUNDER_API TornModel {
   StatePointer state_;
 };
 
+/// Edges that were welded, as pairs of surface points, in the order of the welds. A later tear may
+/// have opened an edge again, or put points on it; a later weld may have made a point one with an
+/// older one: then it has no face. Valid until the next change of the model; empty without welds.
+SUNDER_API std::span<const std::array<std::uint32_t, 2>> scars_of(const TornModel& model);
+
 /// Name of the custom attribute of mark_scars().
 inline constexpr const char* kScarAttribute = "_SCAR";
 
 /// Marks the points of edges that were welded, for files and shaders: gives meshes that have some
-/// the attribute `_SCAR`, 1 at their vertices and 0 elsewhere. O(vertices + triangles)
+/// the attribute `_SCAR`, 1 at their vertices and elsewhere 0, or what the source has.
+/// O(vertices + triangles)
 /// @param character  with the vertices and triangles of model.character(), such as a copy of it.
 SUNDER_API void mark_scars(const TornModel& model, Character& character);
 

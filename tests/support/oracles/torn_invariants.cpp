@@ -53,7 +53,7 @@ void check_cover(const TornModel& model, std::uint32_t m, std::vector<std::strin
   const Cover cover = cover_of(model, m);
   for (const std::string& fault : cover.faults) faults.push_back(say("mesh ", m, ": ", fault));
   // A weld brings ends of lips together that differ by a millionth of a triangle.
-  const double rounding = model.scars().empty() ? 1e-9 : 1e-6;
+  const double rounding = scars_of(model).empty() ? 1e-9 : 1e-6;
   for (std::size_t t = 0; t < cover.part.size(); ++t)
     if (cover.part[t] > 1 + rounding || (!cover.has_retired[t] && cover.part[t] < 1 - rounding))
       faults.push_back(

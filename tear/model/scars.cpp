@@ -2,20 +2,19 @@
 
 #include <algorithm>
 
-#include "tear/model/model_state.h"
+#include "tear/model/model_access.h"
 
 namespace sunder {
 
-std::span<const std::array<std::uint32_t, 2>> TornModel::scars() const {
-  const State* const torn = torn_state();
-  if (torn == nullptr) return {};
-  return torn->editor.connectivity.scars();
+std::span<const std::array<std::uint32_t, 2>> scars_of(const TornModel& model) {
+  if (model.undo_count() == 0) return {};
+  return tear::ModelAccess::state_of(model).editor.connectivity.scars();
 }
 
 void mark_scars(const TornModel& model, Character& character) {
-  if (model.scars().empty()) return;
+  if (scars_of(model).empty()) return;
   std::vector<bool> is_scar(model.point_count(), false);
-  for (const auto& scar : model.scars())
+  for (const auto& scar : scars_of(model))
     for (const std::uint32_t point : scar) is_scar[point] = true;
   for (std::uint32_t m = 0; m < character.meshes.size(); ++m) {
     Mesh& mesh = character.meshes[m];
