@@ -61,7 +61,8 @@ class Wounds {
     reach_lip(first, 0);
     const Vec3d start = place_on(first, from);
     while (!queue.empty()) {
-      const auto [way, lip] = queue.top();
+      const double way = queue.top().way;
+      const Index lip = queue.top().lip;
       queue.pop();
       if (way > ways[lip]) continue;
       is_chosen[lip] = true;
