@@ -404,8 +404,9 @@ class Planner {
   /// @return whether the cut may take longer; then it does.
   bool lengthen() {
     if (!timing_.may_take_longer || slowdown_ <= 1 || timing_.cut >= longest_) return false;
-    const double factor = std::max(slowdown_ * kSlower, kSlower);
-    timing_.cut = std::min(timing_.cut * factor, longest_);
+    // Approach and retreat grow by as much as the cut.
+    const double factor = std::min(slowdown_ * kSlower, longest_ / timing_.cut);
+    timing_.cut *= factor;
     timing_.approach *= factor;
     timing_.retreat *= factor;
     return true;

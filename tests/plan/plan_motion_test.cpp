@@ -258,6 +258,20 @@ TEST(PlanMotion, a_slow_joint_is_named_and_the_cut_may_take_longer) {
   expect_limits_kept(tool, patient->trajectory);
 }
 
+TEST(PlanMotion, approach_and_retreat_grow_by_as_much_as_the_cut) {
+  PlanTiming timing = while_it_bends();
+  timing.clip_speed = 0;
+  timing.may_take_longer = true;
+  PlanTool tool = test::six_axis_arm(Vec3d(0.2, 0.2, 1.0));
+  for (RobotJoint& joint : tool.robot.joints) joint.velocity = 0.002;
+  const auto planned = plan_motion(tube(), front_curve(timing), timing, tool);
+  ASSERT_TRUE(planned) << planned.error().text();
+  const PlanReport& report = planned->report;
+  EXPECT_FALSE(report.is_reachable);
+  EXPECT_DOUBLE_EQ(report.cut, 16 * timing.cut);
+  EXPECT_DOUBLE_EQ(report.cut_begins, 16 * timing.approach);
+}
+
 TEST(PlanMotion, a_limit_that_stops_the_blade_is_named_and_without_it_the_curve_is_made) {
   PlanTiming timing;
   timing.pose = BindPose{};
