@@ -10,8 +10,9 @@
 namespace sunder::plan {
 namespace {
 
-constexpr double kPlaces = 4000;       ///< About so many places of the surface.
-constexpr std::size_t kInstants = 64;  ///< At which distances are measured.
+constexpr double kPlaces = 4000;  ///< About so many places of the surface.
+/// At so many samples and the first one distances are measured.
+constexpr std::size_t kInstants = 64;
 
 /// Places evenly distributed over the surface in a pose: each triangle gets its share by area, by
 /// the R2 sequence (Roberts 2018).
@@ -74,9 +75,8 @@ Result<Clearance> Clearance::create(const Character& character, const PlanTool& 
   const Result<std::vector<SurfaceAnchor>> anchors = spread_places(character, *pose);
   if (!anchors) return anchors.error();
   const PosedPlaces places(character, *anchors);
-  const double end = samples.back().time;
   for (std::size_t i = 0; i <= kInstants; ++i) {
-    Instant instant{end * static_cast<double>(i) / static_cast<double>(kInstants),
+    Instant instant{samples[i * (samples.size() - 1) / kInstants].time,
                     std::vector<Vec3d>(places.size()), std::vector<Vec3d>(places.size())};
     if (timing.clip_speed > 0) pose = pose_at(character, timing, instant.time);
     if (!pose) return pose.error();

@@ -50,7 +50,9 @@ void take_away(ValueLimits& limits, Eigen::Index i) {
 
 ReachedPart reached_part(BladeChain& chain, std::span<const TargetSample> samples,
                          std::span<const Values> values, double tolerance) {
-  ReachedPart part{true, 0, 0};
+  ReachedPart part{std::any_of(samples.begin(), samples.end(),
+                               [](const TargetSample& sample) { return sample.depth > 0; }),
+                   0, 0};
   std::size_t first = 0;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     if (samples[i].depth <= 0) {  // above the surface

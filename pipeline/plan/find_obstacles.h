@@ -13,7 +13,7 @@ namespace sunder::plan {
 /// The longest part of the cut in which the blade passes the surface within a distance of the
 /// curve, about as deep as it shall.
 struct ReachedPart {
-  bool is_whole = false;
+  bool is_whole = false;           ///< False without a sample below the surface.
   std::size_t first = 0, end = 0;  ///< Samples; empty: none.
 };
 /// @param values  per sample.

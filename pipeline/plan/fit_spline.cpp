@@ -31,14 +31,15 @@ constexpr double kOfLimit = 0.97;
 constexpr double kNearness = 0.05;  ///< Share of the clearance that is an error of one.
 constexpr double kExcess = 2e-3;    ///< Share of a limit that is an error of one.
 
-/// The spline nearest to values at even times, by linear least squares with a little smoothing.
-std::vector<Values> fit_values(std::span<const Values> values, std::size_t intervals) {
-  const auto count = static_cast<Eigen::Index>(intervals + 3), size = values[0].size();
+/// The spline nearest to values at the samples, by linear least squares with a little smoothing.
+std::vector<Values> fit_values(std::span<const Values> values,
+                               std::span<const TargetSample> samples,
+                               std::span<const double> knots) {
+  const auto count = static_cast<Eigen::Index>(knots.size() + 2), size = values[0].size();
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(count, count);
   Eigen::MatrixXd right = Eigen::MatrixXd::Zero(count, size);
-  const double last = static_cast<double>(values.size() - 1);
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const SplineWeights of = spline_weights(static_cast<double>(i) / last, 1, intervals);
+    const SplineWeights of = spline_weights(samples[i].time, knots);
     const auto first = static_cast<Eigen::Index>(of.first);
     for (Eigen::Index a = 0; a < 4; ++a) {
       const double weight = of.weights[static_cast<std::size_t>(a)];
@@ -57,6 +58,11 @@ std::vector<Values> fit_values(std::span<const Values> values, std::size_t inter
   return control;
 }
 
+std::vector<double> times(double factor, std::vector<double> weights) {
+  for (double& weight : weights) weight *= factor;
+  return weights;
+}
+
 /// The problem that Ceres solves.
 class SplineProblem {
  public:
@@ -64,7 +70,7 @@ class SplineProblem {
 
   void add_errors(const std::vector<TargetSample>& samples, const ErrorScales& scales) {
     for (const TargetSample& sample : samples) {
-      const SplineWeights of = spline_weights(sample.time, spline_.duration, spline_.intervals());
+      const SplineWeights of = spline_weights(sample.time, spline_.knots);
       problem_.AddResidualBlock(new BladeCost(chain_, sample, scales, of.weights), nullptr,
                                 blocks(of.first, 4));
     }
@@ -72,7 +78,7 @@ class SplineProblem {
 
   void add_kept_away(const KeptAway& kept_away) {
     for (const NearPlace& near : kept_away.places) {
-      const SplineWeights of = spline_weights(near.time, spline_.duration, spline_.intervals());
+      const SplineWeights of = spline_weights(near.time, spline_.knots);
       problem_.AddResidualBlock(
           new ClearanceCost(chain_, kept_away.shapes[near.shape], near, kept_away.margin,
                             kNearness * kept_away.margin, of.weights),
@@ -82,25 +88,24 @@ class SplineProblem {
 
   void add_smoothness() {
     const std::size_t count = spline_.control.size();
-    for (std::size_t i = 0; i + 3 < count; ++i) add({-1, 3, -3, 1}, i, kRough);
+    for (std::size_t i = 0; i + 3 < count; ++i) {
+      const double step = spline_.knots[i + 1] - spline_.knots[i];
+      add(times(step * step * step, derivative_weights(spline_.knots, 3, i)), i, kRough);
+    }
     for (std::size_t i = 0; i < count; ++i)
       problem_.AddResidualBlock(
           new StencilCost({1}, Values::Constant(size(), 1 / kAway), spline_.control[i]), nullptr,
           blocks(i, 1));
-    for (const std::size_t i : {std::size_t{0}, count - 3}) {
-      add({-1, 0, 1}, i, kMotionAtEnds);
-      add({1, -2, 1}, i, kMotionAtEnds);
-    }
+    add_rest(0, spline_.knots[1] - spline_.knots[0]);
+    add_rest(count - 3, spline_.duration() - spline_.knots[spline_.intervals() - 1]);
   }
 
   void add_limits(const SplineLimits& limits) {
-    const double step = spline_.step();
     const std::size_t count = spline_.control.size();
     if (has_any(limits.speed))
-      for (std::size_t i = 0; i + 1 < count; ++i) add_excess({-1, 1}, limits.speed, 1 / step, i);
+      for (std::size_t i = 0; i + 1 < count; ++i) add_excess(1, limits.speed, i);
     if (has_any(limits.acceleration))
-      for (std::size_t i = 0; i + 2 < count; ++i)
-        add_excess({1, -2, 1}, limits.acceleration, 1 / (step * step), i);
+      for (std::size_t i = 0; i + 2 < count; ++i) add_excess(2, limits.acceleration, i);
     for (Values& control : spline_.control)
       for (int i = 0; i < static_cast<int>(size()); ++i) {
         if (std::isfinite(limits.values.lower[i]))
@@ -145,10 +150,20 @@ class SplineProblem {
         nullptr, blocks(first, stencil.size()));
   }
 
-  void add_excess(const std::vector<double>& stencil, const Values& limits, double per_step,
-                  std::size_t first) {
-    problem_.AddResidualBlock(new ExcessCost(stencil, kOfLimit / per_step * limits, kExcess),
-                              nullptr, blocks(first, stencil.size()));
+  /// No speed and acceleration at the first or last knot, beside which knots are `step` apart.
+  void add_rest(std::size_t first, double step) {
+    std::vector<double> speed = derivative_weights(spline_.knots, 1, first);
+    const std::vector<double> next = derivative_weights(spline_.knots, 1, first + 1);
+    speed[1] += next[0];
+    speed.push_back(next[1]);
+    add(times(step, std::move(speed)), first, kMotionAtEnds);
+    add(times(step * step, derivative_weights(spline_.knots, 2, first)), first, kMotionAtEnds);
+  }
+
+  void add_excess(std::size_t order, const Values& limits, std::size_t first) {
+    problem_.AddResidualBlock(
+        new ExcessCost(derivative_weights(spline_.knots, order, first), kOfLimit * limits, kExcess),
+        nullptr, blocks(first, order + 1));
   }
 
   BladeChain& chain_;
@@ -158,11 +173,11 @@ class SplineProblem {
 
 }  // namespace
 
-JointSpline spline_through(std::span<const Values> values, double duration, std::size_t intervals,
-                           const ValueLimits& limits) {
+JointSpline spline_through(std::span<const Values> values, std::span<const TargetSample> samples,
+                           std::vector<double> knots, const ValueLimits& limits) {
   JointSpline spline;
-  spline.duration = duration;
-  spline.control = fit_values(values, intervals);
+  spline.control = fit_values(values, samples, knots);
+  spline.knots = std::move(knots);
   for (Values& control : spline.control)
     control = control.cwiseMax(limits.lower).cwiseMin(limits.upper);
   return spline;

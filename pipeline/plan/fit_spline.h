@@ -19,9 +19,11 @@ struct KeptAway {
   double margin = 0;  ///< Metres.
 };
 
-/// The spline nearest to values at even times within limits, where the search begins.
-[[nodiscard]] JointSpline spline_through(std::span<const Values> values, double duration,
-                                         std::size_t intervals, const ValueLimits& limits);
+/// The spline nearest to values within limits, where the search begins.
+/// @param values  one per sample.
+[[nodiscard]] JointSpline spline_through(std::span<const Values> values,
+                                         std::span<const TargetSample> samples,
+                                         std::vector<double> knots, const ValueLimits& limits);
 
 /// The spline of all values that passes along the samples with small errors, smoothly and within
 /// limits: nonlinear least squares by Ceres. Limits of values hold exactly at every time; speeds

@@ -163,18 +163,23 @@ std::vector<std::vector<Values>> track_samples(BladeChain& chain,
     double cost = 0;
   };
   std::vector<Track> tracks;
-  const std::size_t middle = samples.size() / 2;  // so that neither end is far from a solution
-  const double seconds = samples.size() > 1 ? samples[1].time - samples[0].time : 1;
+  const auto half = std::find_if(samples.begin(), samples.end(),
+                                 [](const TargetSample& sample) { return sample.share >= 0.5; });
+  // So that neither end is far from a solution.
+  const std::size_t middle =
+      half == samples.end() ? 0 : static_cast<std::size_t>(half - samples.begin());
   for (const Solution& start : solutions_of(chain, samples[middle], scales, limits.values, seeds)) {
     Track track{std::vector<Values>(samples.size()), 0};
-    const auto follow = [&](std::size_t i, const Values& from) {
+    const auto follow = [&](std::size_t i, std::size_t before, const Values& from) {
       track.values[i] = from;
       track.cost += solve_sample(chain, samples[i], scales, limits.values, track.values[i]);
+      if (i == before) return;
+      const double seconds = std::abs(samples[i].time - samples[before].time);
       track.cost += change_cost(track.values[i] - from, seconds, limits.speed);
     };
-    follow(middle, start.values);
-    for (std::size_t i = middle; i-- > 0;) follow(i, track.values[i + 1]);
-    for (std::size_t i = middle + 1; i < samples.size(); ++i) follow(i, track.values[i - 1]);
+    follow(middle, middle, start.values);
+    for (std::size_t i = middle; i-- > 0;) follow(i, i + 1, track.values[i + 1]);
+    for (std::size_t i = middle + 1; i < samples.size(); ++i) follow(i, i - 1, track.values[i - 1]);
     tracks.push_back(std::move(track));
   }
   std::stable_sort(tracks.begin(), tracks.end(),

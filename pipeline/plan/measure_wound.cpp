@@ -159,17 +159,19 @@ class PosedDistances {
 };
 
 /// Poses of all clips, at even steps; none without clips.
-std::vector<ModelPose> clip_poses(const std::shared_ptr<const Character>& character) {
+Result<std::vector<ModelPose>> clip_poses(const std::shared_ptr<const Character>& character) {
   std::vector<ModelPose> poses;
   PoseSetSpec spec;
   spec.clip_samples = kClipSamples;
   const Result<PoseSet> set = PoseSet::create(character, spec);
-  if (!set) return poses;  // a character without clips
+  if (!set && set.error().code() == StatusCode::empty_input) return poses;  // there are no clips
+  if (!set) return set.error();
   const std::size_t count = set->size(PoseSet::Role::fit);
   const std::size_t stride = (count + kMostPoses - 1) / kMostPoses;
   for (std::size_t i = 0; i < count; i += stride) {
     poses.emplace_back();
-    if (!set->compute(PoseSet::Role::fit, i, poses.back())) throw std::bad_alloc();
+    if (const Status status = set->compute(PoseSet::Role::fit, i, poses.back()); !status)
+      return status;
   }
   return poses;
 }
@@ -204,7 +206,9 @@ Result<WoundMeasures> measure_wound(const std::shared_ptr<const Character>& char
   measures.farthest_share =
       static_cast<double>(farthest.at) / static_cast<double>(curve.size() - 1);
   measures.mean_distance = distances.mean();
-  for (const ModelPose& of_clip : clip_poses(character)) {
+  const Result<std::vector<ModelPose>> poses = clip_poses(character);
+  if (!poses) return poses.error();
+  for (const ModelPose& of_clip : *poses) {
     if (const Status status = distances.pose(of_clip); !status) return status;
     measures.hausdorff_in_clips =
         std::max(measures.hausdorff_in_clips, distances.hausdorff().distance);

@@ -21,14 +21,13 @@ namespace sunder {
 namespace plan {
 namespace {
 
-constexpr double kIntervalsOfCut = 48;
-constexpr double kMostIntervals = 160;
-constexpr std::uint32_t kSamplesPerInterval = 3;
+constexpr std::size_t kSamplesPerInterval = 3;
 constexpr double kTolerance = 0.01;         ///< Of the curve's length.
 constexpr double kLeastTolerance = 0.0005;  ///< Of the diagonal of the posed character.
 /// Errors that count as one, as shares of the tolerance and the depth.
 constexpr double kPlaceScale = 0.02, kDepthScale = 0.05;
-constexpr double kRate = 240;        ///< Samples of the trajectory per second.
+constexpr double kRate = 240;        ///< Samples of the trajectory per second, or
+constexpr double kLeastOfCut = 240;  ///< in the cut, if it takes less.
 constexpr double kFrame = 1.0 / 60;  ///< A blade at least so often while a clip runs, seconds.
 constexpr int kMostRounds = 4;       ///< Of fits that add places to keep away from.
 constexpr double kOverLimit = 1e-9;
@@ -83,6 +82,30 @@ double diagonal_of(const Character& character, const ModelPose& pose) {
     high = high.cwiseMax(place);
   }
   return (high - low).norm();
+}
+
+/// Times between knots, and the knots.
+std::vector<double> sample_times(const std::vector<double>& knots) {
+  std::vector<double> times;
+  for (std::size_t i = 0; i + 1 < knots.size(); ++i)
+    for (std::size_t k = 0; k < kSamplesPerInterval; ++k)
+      times.push_back(knots[i] + (knots[i + 1] - knots[i]) * static_cast<double>(k) /
+                                     static_cast<double>(kSamplesPerInterval));
+  times.push_back(knots.back());
+  return times;
+}
+
+/// Even times in each of approach, cut and retreat.
+std::vector<double> trajectory_times(const Timeline& timeline) {
+  std::vector<double> times = {0};
+  const auto add = [&](double begin, double end, double least) {
+    const double steps = std::max(std::ceil((end - begin) * kRate), least);
+    for (double k = 1; k <= steps; ++k) times.push_back(begin + (end - begin) * k / steps);
+  };
+  add(0, timeline.cut_begins(), 1);
+  add(timeline.cut_begins(), timeline.cut_ends(), kLeastOfCut);
+  add(timeline.cut_ends(), timeline.end(), 1);
+  return times;
 }
 
 /// One plan, step by step.
@@ -163,10 +186,8 @@ class Planner {
   Result<bool> fit(const TargetPath& path, BladeChain& chain) {
     PlanReport& report = planned_.report;
     const Timeline timeline(timing_);
-    const auto intervals = static_cast<std::size_t>(
-        std::min(std::ceil(kIntervalsOfCut * timeline.end() / timing_.cut), kMostIntervals));
-    const auto count = static_cast<std::uint32_t>(kSamplesPerInterval * intervals);
-    Result<std::vector<TargetSample>> samples = sample_target(*character_, path, timing_, count);
+    Result<std::vector<TargetSample>> samples =
+        sample_target(*character_, path, timing_, sample_times(timeline.knots()));
     if (!samples) return samples.error();
     samples_ = std::move(*samples);
     report.cut = timing_.cut;
@@ -180,7 +201,7 @@ class Planner {
     PlannedMotion first;
     double first_slowdown = 1;
     for (std::size_t i = 0; i < tracks.size(); ++i) {
-      if (const Status status = follow(tracks[i], intervals, path, chain); !status) return status;
+      if (const Status status = follow(tracks[i], path, chain); !status) return status;
       if (planned_.report.is_reachable) return true;
       if (i == 0) {
         first = planned_;
@@ -193,13 +214,12 @@ class Planner {
   }
 
   /// Fits a spline to a track, and tears. The report says whether the curve is made.
-  Status follow(const std::vector<Values>& start, std::size_t intervals, const TargetPath& path,
-                BladeChain& chain) {
+  Status follow(const std::vector<Values>& start, const TargetPath& path, BladeChain& chain) {
     PlanReport& report = planned_.report;
     report.obstacles.clear();
     slowdown_ = 1;
     if (!check_reach(chain, start)) return {};
-    Result<JointSpline> spline = fit(chain, start, intervals);
+    Result<JointSpline> spline = fit(chain, start);
     if (!spline) return spline.error();
     write_trajectory(*spline, chain);
     check_rates(chain);
@@ -214,12 +234,11 @@ class Planner {
   }
 
   /// Fits until the links keep their distance, or for some rounds.
-  Result<JointSpline> fit(BladeChain& chain, const std::vector<Values>& start,
-                          std::size_t intervals) {
+  Result<JointSpline> fit(BladeChain& chain, const std::vector<Values>& start) {
     PlanReport& report = planned_.report;
     KeptAway kept_away{tool_.shapes, {}, options_.clearance};
     report.least_clearance = std::numeric_limits<double>::infinity();
-    JointSpline spline = spline_through(start, samples_.back().time, intervals, limits_.values);
+    JointSpline spline = spline_through(start, samples_, Timeline(timing_).knots(), limits_.values);
     for (int round = 0;; ++round) {
       Result<JointSpline> fitted =
           fit_spline(chain, samples_, scales_, limits_, kept_away, std::move(spline));
@@ -250,13 +269,14 @@ class Planner {
     if (!clearance_->is_needed()) return tracks;
     std::vector<std::pair<double, std::size_t>> order;
     for (std::size_t i = 0; i < tracks.size(); ++i) {
-      const double last = static_cast<double>(samples_.size() - 1);
       double inside = 0;
       for (const NearPlace& near : clearance_->find(
                chain,
-               [&](double time) {
-                 return tracks[i][static_cast<std::size_t>(
-                     std::lround(last * time / samples_.back().time))];
+               [&](double time) {  // of a sample
+                 const auto at = std::lower_bound(
+                     samples_.begin(), samples_.end() - 1, time,
+                     [](const TargetSample& sample, double of) { return sample.time < of; });
+                 return tracks[i][static_cast<std::size_t>(at - samples_.begin())];
                },
                0.0))
         inside -= near.distance;
@@ -277,7 +297,8 @@ class Planner {
     report.last_share = has_part ? samples_[part.end - 1].share : 0;
     report.is_reachable = part.is_whole;
     if (part.is_whole) return true;
-    std::size_t missed = samples_.size() / 2;
+    std::size_t missed = 0;
+    while (missed + 1 < samples_.size() && samples_[missed].share < 0.5) ++missed;
     if (has_part && part.first > 0 && samples_[part.first - 1].depth > 0) missed = part.first - 1;
     if (has_part && part.end < samples_.size() && samples_[part.end].depth > 0) missed = part.end;
     report.obstacles = find_obstacles(chain, samples_[missed], scales_, limits_.values,
@@ -290,9 +311,7 @@ class Planner {
     trajectory = {};
     for (std::size_t i = 0; i < chain.size(); ++i)
       trajectory.names.push_back(chain.description(i).name);
-    const auto steps = static_cast<std::size_t>(std::ceil(spline.duration * kRate));
-    for (std::size_t k = 0; k <= steps; ++k) {
-      const double time = spline.duration * static_cast<double>(k) / static_cast<double>(steps);
+    for (const double time : trajectory_times(Timeline(timing_))) {
       trajectory.times.push_back(time);
       // Sums of control points within limits leave them by rounding only.
       const Values values =
@@ -328,7 +347,7 @@ class Planner {
     const auto at = [&](std::size_t k) { return trajectory.values[k * width + i]; };
     const RobotValue& value = chain.description(i);
     ValueMargin margin{value.name, at(0), at(0), 0, 0, chain.speed_limit(i), 0};
-    double before = 0;
+    double before = 0, seconds_before = 0;
     for (std::size_t k = 0; k < trajectory.times.size(); ++k) {
       margin.least = std::min(margin.least, at(k));
       margin.greatest = std::max(margin.greatest, at(k));
@@ -340,12 +359,14 @@ class Planner {
         margin.greatest_speed = std::abs(speed);
         fastest_share_ = share;
       }
-      const double acceleration = k > 1 ? std::abs(speed - before) / seconds : 0;
+      const double acceleration =
+          k > 1 ? std::abs(speed - before) / (0.5 * (seconds + seconds_before)) : 0;
       if (acceleration > margin.greatest_acceleration) {
         margin.greatest_acceleration = acceleration;
         sharpest_share_ = share;
       }
       before = speed;
+      seconds_before = seconds;
     }
     margin.to_limits = std::min(margin.least - value.lower, value.upper - margin.greatest);
     return margin;
@@ -404,8 +425,9 @@ class Planner {
   /// @return whether the cut may take longer; then it does.
   bool lengthen() {
     if (!timing_.may_take_longer || slowdown_ <= 1 || timing_.cut >= longest_) return false;
-    const double factor = std::max(slowdown_ * kSlower, kSlower);
-    timing_.cut = std::min(timing_.cut * factor, longest_);
+    // Approach and retreat grow by as much as the cut.
+    const double factor = std::min(slowdown_ * kSlower, longest_ / timing_.cut);
+    timing_.cut *= factor;
     timing_.approach *= factor;
     timing_.retreat *= factor;
     return true;

@@ -232,14 +232,15 @@ Result<ModelPose> pose_at(const Character& character, const PlanTiming& timing, 
 }
 
 Result<std::vector<TargetSample>> sample_target(const Character& character, const TargetPath& path,
-                                                const PlanTiming& timing, std::uint32_t count) {
+                                                const PlanTiming& timing,
+                                                std::span<const double> times) {
   const Timeline timeline(timing);
-  std::vector<TargetSample> samples(count + 1);
+  std::vector<TargetSample> samples(times.size());
   Result<ModelPose> pose = pose_at(character, timing, 0);
   if (!pose) return pose.error();
-  for (std::uint32_t i = 0; i <= count; ++i) {
+  for (std::size_t i = 0; i < times.size(); ++i) {
     TargetSample& sample = samples[i];
-    sample.time = timeline.end() * i / count;
+    sample.time = times[i];
     sample.share = timeline.share_at(sample.time);
     sample.lift = timeline.lift_at(sample.time);
     if (timing.clip_speed > 0) pose = pose_at(character, timing, sample.time);
@@ -247,6 +248,13 @@ Result<std::vector<TargetSample>> sample_target(const Character& character, cons
     if (const Status status = path.sample(*pose, timing.standoff, sample); !status) return status;
   }
   return samples;
+}
+
+Result<std::vector<TargetSample>> sample_target(const Character& character, const TargetPath& path,
+                                                const PlanTiming& timing, std::uint32_t count) {
+  std::vector<double> times;
+  for (std::uint32_t i = 0; i <= count; ++i) times.push_back(Timeline(timing).end() * i / count);
+  return sample_target(character, path, timing, times);
 }
 
 }  // namespace sunder::plan

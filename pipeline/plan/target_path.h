@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "pipeline/plan/posed_places.h"
@@ -50,6 +51,11 @@ class TargetPath {
   bool is_closed_ = false;
   std::optional<PosedPlaces> places_;  ///< The anchors.
 };
+
+/// The samples of a motion at times of the timeline.
+Result<std::vector<TargetSample>> sample_target(const Character& character, const TargetPath& path,
+                                                const PlanTiming& timing,
+                                                std::span<const double> times);
 
 /// The samples of a motion at even times, `count` + 1 of them from 0 to the end of the timeline.
 Result<std::vector<TargetSample>> sample_target(const Character& character, const TargetPath& path,

@@ -2,6 +2,8 @@
 
 #include <sunder/plan/plan.h>
 
+#include <vector>
+
 namespace sunder::plan {
 
 /// Where the blade shall be along the curve and above it at a time: it comes down at the begin of
@@ -18,6 +20,11 @@ class Timeline {
   [[nodiscard]] double share_at(double time) const;
   /// 0 during the cut, 1 at begin and end of the motion.
   [[nodiscard]] double lift_at(double time) const;
+
+  /// Times from 0 to the end between which a motion may be a polynomial: 48 even steps in the cut;
+  /// in approach and retreat even steps of about the same length or, of more than 56, so many that
+  /// grow evenly with the distance from the cut.
+  [[nodiscard]] std::vector<double> knots() const;
 
  private:
   PlanTiming timing_;

@@ -258,6 +258,46 @@ TEST(PlanMotion, a_slow_joint_is_named_and_the_cut_may_take_longer) {
   expect_limits_kept(tool, patient->trajectory);
 }
 
+TEST(PlanMotion, approach_and_retreat_grow_by_as_much_as_the_cut) {
+  PlanTiming timing = while_it_bends();
+  timing.clip_speed = 0;
+  timing.may_take_longer = true;
+  PlanTool tool = test::six_axis_arm(Vec3d(0.2, 0.2, 1.0));
+  for (RobotJoint& joint : tool.robot.joints) joint.velocity = 0.002;
+  const auto planned = plan_motion(tube(), front_curve(timing), timing, tool);
+  ASSERT_TRUE(planned) << planned.error().text();
+  const PlanReport& report = planned->report;
+  EXPECT_FALSE(report.is_reachable);
+  EXPECT_DOUBLE_EQ(report.cut, 16 * timing.cut);
+  EXPECT_DOUBLE_EQ(report.cut_begins, 16 * timing.approach);
+}
+
+TEST(PlanMotion, a_short_cut_after_a_long_approach_is_made_and_measured) {
+  PlanTiming timing = while_it_bends();
+  timing.clip_speed = 0;
+  timing.approach = 20;
+  timing.cut = 0.05;
+  timing.retreat = 31;
+  const WoundTarget target = front_curve(timing);
+  PlanTool tool = test::six_axis_arm(Vec3d(0.2, 0.2, 1.0));
+  const auto hurried = plan_motion(tube(), target, timing, tool);
+  ASSERT_TRUE(hurried) << hurried.error().text();
+  EXPECT_FALSE(hurried->report.is_reachable);
+  ASSERT_FALSE(hurried->report.obstacles.empty());
+  EXPECT_EQ(hurried->report.obstacles[0].kind, PlanObstacle::Kind::joint_speed);
+  for (RobotJoint& joint : tool.robot.joints) joint.velocity = 0;  // no limit
+  const auto planned = plan_motion(tube(), target, timing, tool);
+  ASSERT_TRUE(planned) << planned.error().text();
+  const PlanReport& report = planned->report;
+  ASSERT_TRUE(report.is_reachable);
+  EXPECT_LE(report.hausdorff, report.tolerance);
+  EXPECT_LE(report.most_depth_error, 0.1 * target.depth[0]);
+  EXPECT_TRUE(std::isfinite(report.mean_depth_error));
+  EXPECT_TRUE(std::isfinite(report.mean_angle_error));
+  expect_torn_along(tube(), planned->tear, target, *make_pose(*tube(), timing.pose),
+                    report.tolerance);
+}
+
 TEST(PlanMotion, a_limit_that_stops_the_blade_is_named_and_without_it_the_curve_is_made) {
   PlanTiming timing;
   timing.pose = BindPose{};

@@ -1,5 +1,6 @@
 // Analytic rates of the blade, of its errors and of the costs of the fit, against differences.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -9,8 +10,10 @@
 
 #include "pipeline/plan/blade_chain.h"
 #include "pipeline/plan/blade_errors.h"
+#include "pipeline/plan/find_obstacles.h"
 #include "pipeline/plan/joint_spline.h"
 #include "pipeline/plan/spline_costs.h"
+#include "pipeline/plan/timeline.h"
 #include "support/machine/random.h"
 
 namespace sunder {
@@ -73,6 +76,13 @@ plan::Values random_values(test::Random& random, std::size_t count) {
   return values;
 }
 
+/// Ten knots of about two seconds.
+std::vector<double> random_knots(test::Random& random) {
+  std::vector<double> knots = {0};
+  while (knots.size() < 10) knots.push_back(knots.back() + random.uniform(0.05, 0.4));
+  return knots;
+}
+
 void expect_near(double found, double expected, const char* what) {
   EXPECT_NEAR(found, expected, kClose * (1 + std::abs(expected))) << what;
 }
@@ -133,7 +143,7 @@ TEST(PlanRates, errors_of_the_blade_at_control_points) {
     auto chain = plan::BladeChain::create(random_tool(random));
     ASSERT_TRUE(chain);
     const plan::TargetSample sample = random_sample(random);
-    const auto of = plan::spline_weights(random.uniform(0, 2), 2, 9);
+    const auto of = plan::spline_weights(random.uniform(0, 2), random_knots(random));
     std::vector<plan::Values> control;
     for (int k = 0; k < 4; ++k) control.push_back(random_values(random, chain->size()));
     check_cost(plan::BladeCost(*chain, sample, {0.1, 0.3, 0.7}, of.weights), control);
@@ -153,7 +163,7 @@ TEST(PlanRates, distances_of_links_from_places) {
     plan::NearPlace near;
     near.place = 2 * random.direction();
     if (i % 2 == 0) near.normal = random.direction();
-    const auto of = plan::spline_weights(random.uniform(0, 2), 2, 9);
+    const auto of = plan::spline_weights(random.uniform(0, 2), random_knots(random));
     std::vector<plan::Values> control;
     for (int k = 0; k < 4; ++k) control.push_back(random_values(random, chain->size()));
     check_cost(plan::ClearanceCost(*chain, shape, near, 20, 0.7, of.weights), control);
@@ -177,32 +187,83 @@ TEST(PlanRates, sums_of_control_points_and_their_excess) {
 TEST(PlanRates, a_spline_has_two_continuous_derivatives_and_stays_within_its_control_points) {
   test::Random random(4);
   plan::JointSpline spline;
-  spline.duration = 1.7;
+  spline.knots = random_knots(random);
   for (int k = 0; k < 12; ++k) spline.control.push_back(random_values(random, 2));
-  const double step = spline.step(), h = 1e-4;
-  for (std::size_t knot = 1; knot < spline.intervals(); ++knot) {
-    const double at = step * static_cast<double>(knot);
-    const auto second = [&](double t) {
-      return plan::Values((spline.at(t + h) - 2 * spline.at(t) + spline.at(t - h)) / (h * h));
-    };
-    EXPECT_LT((second(at + 2 * h) - second(at - 2 * h)).cwiseAbs().maxCoeff(),
-              1e-2 * (1 + second(at).cwiseAbs().maxCoeff()));
-  }
-  for (Eigen::Index value = 0; value < 2; ++value) {
-    double low = 1e9, high = -1e9, rate = 0;
-    for (std::size_t k = 0; k < spline.control.size(); ++k) {
-      low = std::min(low, spline.control[k][value]);
-      high = std::max(high, spline.control[k][value]);
-      if (k > 0)
-        rate = std::max(rate,
-                        std::abs(spline.control[k][value] - spline.control[k - 1][value]) / step);
+  // Control points of a derivative.
+  const auto derivative = [&](std::size_t order, Eigen::Index value) {
+    std::vector<double> of;
+    for (std::size_t k = 0; k + order < spline.control.size(); ++k) {
+      const std::vector<double> weights = plan::derivative_weights(spline.knots, order, k);
+      of.push_back(0);
+      for (std::size_t i = 0; i <= order; ++i)
+        of.back() += weights[i] * spline.control[k + i][value];
     }
-    for (double t = 0; t + 1e-3 <= spline.duration; t += 1e-3) {
+    return of;
+  };
+  const auto greatest = [](const std::vector<double>& of) {
+    double most = 0;
+    for (const double x : of) most = std::max(most, std::abs(x));
+    return most;
+  };
+  for (Eigen::Index value = 0; value < 2; ++value) {
+    const std::vector<double> second = derivative(2, value);
+    const double h = 1e-4, jerk = greatest(derivative(3, value));
+    for (std::size_t knot = 1; knot < spline.intervals(); ++knot)
+      for (const double away : {-2 * h, 2 * h}) {
+        const double t = spline.knots[knot] + away;
+        const double by_differences =
+            (spline.at(t + h)[value] - 2 * spline.at(t)[value] + spline.at(t - h)[value]) / (h * h);
+        EXPECT_NEAR(by_differences, second[knot], 3 * h * jerk + 1e-5);
+      }
+    double low = 1e9, high = -1e9;
+    for (const plan::Values& control : spline.control) {
+      low = std::min(low, control[value]);
+      high = std::max(high, control[value]);
+    }
+    const double rate = greatest(derivative(1, value));
+    for (double t = 0; t + 1e-3 <= spline.duration(); t += 1e-3) {
       EXPECT_GE(spline.at(t)[value], low - 1e-12);
       EXPECT_LE(spline.at(t)[value], high + 1e-12);
       EXPECT_LE(std::abs(spline.at(t + 1e-3)[value] - spline.at(t)[value]) / 1e-3, rate + 1e-9);
     }
   }
+}
+
+TEST(PlanTimes, a_cut_has_its_knots_however_long_the_approach_is) {
+  test::Random random(6);
+  for (int i = 0; i < 200; ++i) {
+    PlanTiming timing;
+    timing.approach = std::pow(10, random.uniform(-3, 3.5));
+    timing.cut = std::pow(10, random.uniform(-3, 3.5));
+    timing.retreat = std::pow(10, random.uniform(-3, 3.5));
+    const plan::Timeline timeline(timing);
+    const std::vector<double> knots = timeline.knots();
+    EXPECT_EQ(knots.front(), 0);
+    EXPECT_EQ(knots.back(), timeline.end());
+    EXPECT_LE(knots.size(), 48u + 2 * 56u + 1);
+    std::size_t in_cut = 0;
+    for (std::size_t k = 1; k < knots.size(); ++k) {
+      const double step = knots[k] - knots[k - 1];
+      ASSERT_GT(step, 0);
+      const double middle = 0.5 * (knots[k] + knots[k - 1]);
+      if (middle < timeline.cut_begins() || middle > timeline.cut_ends()) continue;
+      ++in_cut;
+      EXPECT_NEAR(step, timing.cut / 48, 1e-9 * timeline.end());
+    }
+    EXPECT_EQ(in_cut, 48u);
+  }
+}
+
+TEST(PlanTimes, a_motion_without_samples_in_the_cut_is_not_reached) {
+  test::Random random(8);
+  auto chain = plan::BladeChain::create(random_tool(random));
+  ASSERT_TRUE(chain);
+  std::vector<plan::TargetSample> samples(3, random_sample(random));
+  for (plan::TargetSample& sample : samples) sample.depth = -0.1;
+  const std::vector<plan::Values> values(3, random_values(random, chain->size()));
+  const plan::ReachedPart part = plan::reached_part(*chain, samples, values, 1);
+  EXPECT_FALSE(part.is_whole);
+  EXPECT_EQ(part.first, part.end);
 }
 
 }  // namespace

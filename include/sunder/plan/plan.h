@@ -41,8 +41,8 @@ struct PlanTiming {
   double cut = 1.0;        ///< Seconds for the curve; > 0.
   double retreat = 0.4;    ///< Seconds from the end of the cut to the last place; > 0.
   double standoff = 0.03;  ///< Of the tip above the surface at begin and end, metres; >= 0.
-  /// Whether `cut` is the least duration: it grows, to sixteen times at most, until joints keep
-  /// their speeds.
+  /// Whether the durations of approach, cut and retreat are the least ones: they grow, all by the
+  /// same factor, sixteen at most, until joints keep their speeds.
   bool may_take_longer = false;
 };
 
