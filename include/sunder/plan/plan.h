@@ -137,7 +137,7 @@ struct PlannedMotion {
 ///         or blade; invalid_argument, index_out_of_range, size_mismatch or non_finite_value, which
 ///         name the place or the field; empty_input for a curve without length;
 ///         unsupported_feature for a blade behind a floating joint; limit_exceeded: out of memory.
-///         About half a second for seven joints. Allocates.
+///         Allocates.
 [[nodiscard]] SUNDER_API Result<PlannedMotion> plan_motion(
     const std::shared_ptr<const Character>& character, const WoundTarget& target,
     const PlanTiming& timing, const PlanTool& tool, const PlanOptions& options = {});
