@@ -64,7 +64,7 @@ std::vector<Index> particles_at_welds(StructureEdit& edit, std::span<const Chang
     for (std::size_t i = 0; i < around.size(); ++i) add(around.point(i));
   });
   std::ranges::sort(particles);
-  particles.erase(std::ranges::unique(particles).begin(), particles.end());
+  particles.erase(std::unique(particles.begin(), particles.end()), particles.end());
   return particles;
 }
 
