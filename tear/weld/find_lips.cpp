@@ -42,11 +42,6 @@ bool hangs_from(Index face, Index other, const SurfaceEditor& editor) {
                                  fillings.serial(above.mesh, above.source_triangle);
 }
 
-bool is_lip(Index half_edge, const SurfaceEditor& editor) {
-  const Index twin = editor.surface().twin[half_edge];
-  return twin == kNone || hangs_from(twin / 3, half_edge / 3, editor);
-}
-
 /// The edge of an origin that two places lie on: it begins in the corner of that number. 3: none.
 Index edge_of_places(const std::array<double, 3>& from, const std::array<double, 3>& to) {
   for (Index k = 0; k < 3; ++k)
@@ -96,14 +91,14 @@ void add_lip(Index half_edge, const SurfaceEditor& editor, ScratchVector<Lip>& l
 
 }  // namespace
 
+bool is_open(Index half_edge, const SurfaceEditor& editor) {
+  const Index twin = editor.surface().twin[half_edge];
+  return twin == kNone || hangs_from(twin / 3, half_edge / 3, editor);
+}
+
 ScratchVector<Lip> find_lips(const SurfaceEditor& editor) {
-  const Surface& surface = editor.surface();
   ScratchVector<Lip> lips(&editor.scratch());
-  editor.log.for_each_ever_changed([&](Index face) {
-    if (surface.has_repeated_point(face)) return;
-    for (Index h = 3 * face; h < 3 * face + 3; ++h)
-      if (is_lip(h, editor)) add_lip(h, editor, lips);
-  });
+  for_each_open_half_edge(editor, [&](Index h) { add_lip(h, editor, lips); });
   std::sort(lips.begin(), lips.end(), [](const Lip& a, const Lip& b) {
     return std::tie(a.line, a.from, a.to, a.half_edge) <
            std::tie(b.line, b.from, b.to, b.half_edge);

@@ -25,6 +25,19 @@ struct Lip {
 /// O(triangles that operations changed or appended)
 [[nodiscard]] ScratchVector<Lip> find_lips(const SurfaceEditor& editor);
 
+/// Whether a half-edge is a border, or a wall or cap begins at it.
+[[nodiscard]] bool is_open(Index half_edge, const SurfaceEditor& editor);
+
+/// Calls visit(half_edge) for each open half-edge of triangles that operations changed or appended.
+template <class Visit>
+void for_each_open_half_edge(const SurfaceEditor& editor, Visit visit) {
+  editor.log.for_each_ever_changed([&](Index face) {
+    if (editor.surface().has_repeated_point(face)) return;
+    for (Index h = 3 * face; h < 3 * face + 3; ++h)
+      if (is_open(h, editor)) visit(h);
+  });
+}
+
 /// The barycentric coordinates, in the origin of a lip's face, of a place on its line.
 [[nodiscard]] std::array<double, 3> place_in_origin(const Lip& lip,
                                                     const std::array<double, 2>& place,

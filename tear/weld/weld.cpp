@@ -106,6 +106,8 @@ bool bring_together(const LipEnd& a, const LipEnd& b, SurfaceEditor& editor) {
 /// @return false if they cannot be joined; then nothing is changed.
 bool join_lips(const LipsToJoin& pair, SurfaceEditor& editor) {
   const auto& [a, b] = pair;
+  const std::vector<Index>& twin = editor.surface().twin;
+  if (twin[a.half_edge] != kNone || twin[b.half_edge] != kNone) return false;
   const Index after_a = Surface::next(a.half_edge), after_b = Surface::next(b.half_edge);
   if (is_one_surface_point(a.half_edge, after_b, editor) &&
       is_one_surface_point(after_a, b.half_edge, editor))
@@ -138,6 +140,41 @@ void join_all(const ScratchVector<LipsToJoin>& pairs, const Workpiece& work, Out
     else
       ++outcome.report.blocked;
   }
+}
+
+/// Open edges that run to and fro between two points, of which a weld joined one at least: the
+/// arrays cannot tell such an edge from a closed one, so it is closed too. Its sides may be skin
+/// and the wall of a bore, which are no partners.
+ScratchVector<LipsToJoin> single_edges_between(std::span<const Index> joined,
+                                               SurfaceEditor& editor) {
+  const Surface& surface = editor.surface();
+  ScratchVector<Index> welded(&editor.scratch());
+  for (const Index h : joined)
+    for (const Index corner : {h, Surface::next(h)}) welded.push_back(surface.corner_point[corner]);
+  std::sort(welded.begin(), welded.end());
+  const auto is_welded = [&](Index point) {
+    return std::binary_search(welded.begin(), welded.end(), point);
+  };
+  ScratchVector<Lip> open(&editor.scratch());
+  for_each_open_half_edge(editor, [&](Index h) {
+    Lip lip;
+    lip.half_edge = h;
+    lip.points = {surface.corner_point[h], surface.corner_point[Surface::next(h)]};
+    if (is_welded(lip.points[0]) || is_welded(lip.points[1])) open.push_back(lip);
+  });
+  const auto before = [](const Lip& a, const Lip& b) { return a.points < b.points; };
+  std::sort(open.begin(), open.end(), [](const Lip& a, const Lip& b) {
+    return a.points != b.points ? a.points < b.points : a.half_edge < b.half_edge;
+  });
+  ScratchVector<LipsToJoin> pairs(&editor.scratch());
+  for (const Lip& lip : open) {
+    if (lip.points[0] > lip.points[1]) continue;
+    Lip back;
+    back.points = {lip.points[1], lip.points[0]};
+    const auto at = std::lower_bound(open.begin(), open.end(), back, before);
+    if (at != open.end() && at->points == back.points) pairs.push_back({lip, *at});
+  }
+  return pairs;
 }
 
 /// The number of connected runs of edges.
@@ -198,12 +235,7 @@ void weld_surface(const Weld& weld, const Workpiece& work, Outcome& outcome) {
     work.posed.forget_from(before.points);
     return;
   }
-  // A single edge between joined points is closed: the arrays cannot tell it from an open one.
-  join_all(pair_lips(editor,
-                     [](const Lip& a, const Lip& b) {
-                       return a.points[0] == b.points[1] && a.points[1] == b.points[0];
-                     }),
-           work, outcome, joined);
+  join_all(single_edges_between(joined, editor), work, outcome, joined);
   keep_scars(joined, editor);
   outcome.report.runs = count_joined_runs(joined, editor);
   outcome.report.length_posed = posed_length_of(joined, work);
