@@ -89,7 +89,7 @@ struct TearRequest {
   bool weight_errors = false;                   ///< Measured for the report.
   bool count_topology = false;                  ///< Per operation, for the report.
   OpenLips open = OpenLips::no;
-  FleshOption flesh;             ///< With `open`.
+  FleshOption flesh;  ///< With `open`.
   /// Blood on the textures so far from lips, metres; 0: as the size of the model suggests.
   std::optional<double> blood;
   std::optional<Vec3d> facing;   ///< Of the character, for `aimed`; empty: as the rig tells.
