@@ -108,7 +108,8 @@ struct ChangeRecord {
   /// For a gap: the points on its two sides. All have a face, and lie on a border or on a rim at
   /// which a wall starts. Empty for a bore, which has one rim and no sides.
   Rims rims;
-  /// Of a weld, ascending. Its undo lists the same points, which it separates again.
+  /// The points that a weld closed, ascending. The undo of a weld lists the same ones: it separates
+  /// them again.
   std::vector<WeldedPoint> welded;
 };
 
