@@ -25,8 +25,8 @@ struct WoundTarget {
   /// surface below their chord, in the pose in which the motion begins.
   std::vector<SurfaceAnchor> places;
   bool is_closed = false;  ///< It ends where it begins.
-  /// Of the tip below the surface, metres, > 0: one for the curve, or one per place. In the first
-  /// and last 3 % of the length the blade goes down to it, and rises.
+  /// How deep the tip is below the surface, metres, > 0: one for the curve, or one per place. In
+  /// the first and last 3 % of the length the blade goes down to it, and rises.
   std::vector<double> depth = {0.01};
   /// Between the blade and the surface along the curve, radians, in (0, pi): one for the curve, or
   /// one per place. Below a right angle the blade's base leans in the direction of travel.
@@ -77,7 +77,7 @@ struct ValueMargin {
   double greatest_acceleration = 0;            ///< Per second squared.
 };
 
-/// What stops a motion.
+/// The reason why a motion is not possible.
 struct PlanObstacle {
   enum class Kind : std::uint8_t {
     joint_limit,   ///< Without the limit of `value` the blade would come there.
@@ -109,15 +109,16 @@ struct PlanReport {
   double cut = 0;                       ///< Seconds that the cut takes.
   double cut_begins = 0, cut_ends = 0;  ///< Seconds of the trajectory.
   std::vector<ValueMargin> values;      ///< One per column of the trajectory.
-  /// Of the blade from the moving curve during the cut, metres: largest, and root mean square.
+  /// How far the blade is from the moving curve during the cut, metres: at most, and root mean
+  /// square.
   double most_place_error = 0, mean_place_error = 0;
   double most_depth_error = 0, mean_depth_error = 0;  ///< Metres.
   double most_angle_error = 0, mean_angle_error = 0;  ///< Radians.
   /// Least distance of a link's shape from the character at 65 times, metres; infinity without
   /// shapes, and if no link comes near.
   double least_clearance = 0;
-  /// Of the lips that the motion tears in a copy: largest and mean distance of lips and curve from
-  /// one another, in the pose in which the cut begins, and the largest one in all sampled poses of
+  /// The motion tears a copy. Largest and mean distance of its lips and the curve from one another,
+  /// metres, in the pose in which the cut begins, and the largest one in all sampled poses of
   /// all clips. Infinity if it tears nothing; 0 if no motion was found.
   double hausdorff = 0, mean_distance = 0, hausdorff_in_clips = 0;
   TearReport torn;  ///< Of that copy, which is torn without width and walls.
