@@ -739,6 +739,18 @@ typedef struct sunder_weld {
   double reach;         /* how far from these places along the wound; 0: to its ends */
 } sunder_weld;
 
+/* Threads between lips that lie on one another. */
+typedef struct sunder_suture {
+  uint32_t struct_size;
+  uint32_t place_count;
+  const double* places; /* 3 numbers each: only the wound nearest to each is sewn; or null: all */
+  double reach;         /* how far from these places along the wound; 0: to its ends */
+  double spacing;       /* between threads along the wound, metres, > 0 */
+  double stiffness;     /* of a thread, N/m, > 0 */
+  double tension;       /* with which it was tied, newtons */
+  double strength;      /* newtons at which it breaks; 0: it never does */
+} sunder_suture;
+
 enum { SUNDER_PIECE_FROZEN = 0, SUNDER_PIECE_ANIMATED = 1, SUNDER_PIECE_VANISHES = 2 };
 enum { SUNDER_AXES_PRINCIPAL = 0, SUNDER_AXES_MODEL = 1 };
 enum { SUNDER_SOLID_CLOSED = 0, SUNDER_SOLID_FANS = 1, SUNDER_SOLID_SHELL = 2 };
@@ -768,6 +780,7 @@ SUNDER_C_API sunder_tear_options sunder_default_tear_options(void);
 SUNDER_C_API sunder_cut sunder_default_cut(void);
 SUNDER_C_API sunder_bore sunder_default_bore(void);
 SUNDER_C_API sunder_weld sunder_default_weld(void);
+SUNDER_C_API sunder_suture sunder_default_suture(void);
 SUNDER_C_API sunder_detach sunder_default_detach(void);
 SUNDER_C_API sunder_stroke_sampling sunder_default_stroke_sampling(void);
 
@@ -789,6 +802,9 @@ SUNDER_C_API sunder_status sunder_submit_drill(sunder_scene scene, sunder_instan
 SUNDER_C_API sunder_status sunder_submit_weld(sunder_scene scene, sunder_instance instance,
                                               const sunder_weld* weld, uint32_t flags,
                                               sunder_command* command);
+SUNDER_C_API sunder_status sunder_submit_suture(sunder_scene scene, sunder_instance instance,
+                                                const sunder_suture* suture, uint32_t flags,
+                                                sunder_command* command);
 /* A stroke over several frames. */
 SUNDER_C_API sunder_status sunder_submit_begin_stroke(sunder_scene scene, sunder_instance instance,
                                                       const sunder_blade* blade,
@@ -1003,7 +1019,22 @@ typedef struct sunder_force_tearing {
   double direction[3];     /* of unit length */
 } sunder_force_tearing;
 
+/* A thread of a suture, between vertices of its two lips; SUNDER_NONE: an end holds nothing any
+ * more. */
+typedef struct sunder_thread {
+  uint32_t left_mesh;
+  uint32_t left_vertex;
+  uint32_t right_mesh;
+  uint32_t right_vertex;
+  double newtons; /* with which it pulled its lips together in the last update */
+  uint32_t is_broken;
+  uint32_t reserved;
+} sunder_thread;
+
 SUNDER_C_API sunder_force_tearing_options sunder_default_force_tearing_options(void);
+/* All threads, in the order in which they were tied; valid until the next call on the scene. */
+SUNDER_C_API sunder_status sunder_get_threads(sunder_scene scene, sunder_instance instance,
+                                              const sunder_thread** threads, uint32_t* count);
 
 /* These need a soft instance after sunder_prepare_to_tear() or its first operation: else
  * SUNDER_NOT_FOUND. */

@@ -25,7 +25,7 @@ std::size_t bytes_of(const ShownMotion& shown) {
 std::size_t bytes_of(const StepScratch& scratch) {
   return bytes_of(scratch.active) + bytes_of(scratch.needed) + bytes_of(scratch.changed) +
          bytes_of(scratch.followed) + bytes_of(scratch.is_needed) + bytes_of(scratch.sums) +
-         bytes_of(scratch.corrections) + bytes_of(scratch.steps);
+         bytes_of(scratch.corrections) + bytes_of(scratch.steps) + bytes_of(scratch.pulls);
 }
 
 }  // namespace
@@ -35,7 +35,7 @@ std::size_t BodyState::memory_bytes() const {
          scratch.self_contact.memory_bytes() + bytes_of(graph.local) + bytes_of(graph.springs) +
          bytes_of(graph.masses) + bytes_of(graph.rates) + rests.memory_bytes() +
          outer.of_pose.memory_bytes() + solver.memory_bytes() + contact.memory_bytes() +
-         bytes_of(shown) + bytes_of(scratch);
+         outer.threads.memory_bytes() + bytes_of(shown) + bytes_of(scratch);
 }
 
 }  // namespace sunder::particles

@@ -14,6 +14,7 @@
 #include "particles/motion/pose_tension.h"
 #include "particles/motion/rest_motion.h"
 #include "particles/motion/sleep.h"
+#include "particles/motion/thread_list.h"
 
 namespace sunder::particles {
 
@@ -23,6 +24,7 @@ struct OuterForces {
   WindField wind;
   bool has_blown = false;  ///< Whether Motion::winds may be other than zero.
   Tension tension;
+  ThreadList threads;
   bool is_tension_stale = false;  ///< Whether Motion::lip_forces must be recomputed.
   PoseTension of_pose;            ///< If Tension::adds_pose_strain.
   bool is_disturbed = false;      ///< Whether something changed since the last step.
@@ -53,6 +55,7 @@ struct StepScratch {
   std::vector<Vec3d> sums;
   std::vector<Vec3d> corrections;  ///< Per particle: by neighbours and holds.
   std::vector<SpringStep> steps;
+  std::vector<PointPull> pulls;         ///< Of holds and threads.
   particles::SelfContact self_contact;  ///< It keeps nothing but what follows from the set.
 };
 

@@ -111,7 +111,9 @@ void BodyState::follow_forces(const TornModel& model, const ModelPose& pose) {
       if (motion.touched[p] != 0) motion.wake(p);
   for (Index p = 0; p < motion.count(); ++p)
     if (motion.awake[p] != 0) motion.touched[p] = motion.bound[p] = 0;
-  holds.begin_step(model, pose, rests, graph.masses, poses, motion);
+  scratch.pulls.clear();
+  holds.begin_step(model, pose, rests, graph.masses, poses, motion, scratch.pulls);
+  outer.threads.begin_step({*set, model, pose, rests, graph.masses, poses}, motion, scratch.pulls);
 }
 
 /// Lists the particles that are awake.
@@ -143,7 +145,7 @@ void BodyState::integrate(double seconds) {
   }
   if (seconds < kShortestStepSeconds) return;
   solver.solve({graph, scratch.active, steps, motion.material_of, motion.displacements,
-                motion.velocities, holds.pulls(), seconds},
+                motion.velocities, scratch.pulls, seconds},
                scratch.corrections);
   for (const Index p : scratch.active) {
     const SpringStep& step = steps[motion.material_of[p]];
@@ -196,6 +198,7 @@ void BodyState::step(const TornModel& model, const ModelPose& pose, bool is_pose
   find_active();
   if (!active.empty() && seconds > 0) {
     integrate(seconds);
+    if (outer.threads.end_step(motion)) outer.is_disturbed = true;
     if (can_yield()) flow({*set, graph, materials, rests}, active, motion);
     if (has_stretch_limit()) limit_stretch({graph, rests, active}, motion, scratch.changed);
   }

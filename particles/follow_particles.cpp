@@ -84,6 +84,7 @@ void BodyState::follow_particles() {
   rests.follow(*set, changed);
   inherit_motion();
   holds.follow(*set);
+  outer.threads.follow(*set, motion);
   graph.is_stale = outer.is_tension_stale = true;
   connect_springs();
   for (const Index p : changed) {

@@ -207,6 +207,7 @@ Status ParticleSet::follow(const TornModel& model, std::span<const ChangeRecord>
     Structure& structure = data_->to_change();
     structure.dirty.clear();
     particles::follow_history(model, structure, changes);
+    if (structure.follow_threads(model)) ++structure.revision;
     structure.note_dirty_points();
   } catch (const std::bad_alloc&) {
     data_->is_broken = true;

@@ -19,7 +19,7 @@ using particles::Motion;
 using particles::Tape;
 
 constexpr double kMostKeptStrain = 1e3;  // the largest limit of a material
-constexpr std::uint32_t kBodyVersion = 7;
+constexpr std::uint32_t kBodyVersion = 8;
 
 void describe(Tape& tape, SoftMaterial& of) {
   for (double* value :
@@ -77,6 +77,7 @@ struct Recorded {
   double tension = 0, time = 0, step_seconds = 0, still_seconds = 0;
   bool adds_pose_strain = false, is_tension_stale = false, is_disturbed = false;
   particles::HoldList holds;
+  particles::ThreadList threads;
   struct OfContact {
     std::vector<Collider> colliders, before;
     bool is_changed = false;
@@ -100,6 +101,7 @@ Recorded recorded(const BodyState& state) {
           state.outer.is_tension_stale,
           state.outer.is_disturbed,
           state.holds,
+          state.outer.threads,
           {{colliders.begin(), colliders.end()},
            {before.begin(), before.end()},
            state.contact.is_changed(),
@@ -142,6 +144,7 @@ void describe(Tape& tape, Recorded& of, const ParticleSet& set) {
   tape(of.is_tension_stale);
   tape(of.is_disturbed);
   of.holds.describe(tape, of.motion.count(), set.point_count());
+  of.threads.describe(tape);
   describe(tape, of.contact.colliders);
   describe(tape, of.contact.before);
   tape(of.contact.is_changed);
@@ -163,12 +166,12 @@ bool has_count(const Recorded& of, std::size_t count) {
   return has && (motion.plastic.strains.empty() || motion.plastic.strains.size() == count);
 }
 
-/// Whether particles and holds are those of the set.
+/// Whether particles, holds and threads are those of the set.
 bool is_of_set(Recorded& of, const ParticleSet& set) {
   if (of.motion.count() != set.particle_count()) return false;
   for (Index p = 0; p < of.motion.count(); ++p)
     if (of.motion.serials[p] != set.serial(p)) return false;
-  return of.holds.find_held(set);
+  return of.threads.find_held(set) && of.holds.find_held(set);
 }
 
 Status check(Recorded& of, const BodyState& state) {
@@ -179,10 +182,11 @@ Status check(Recorded& of, const BodyState& state) {
   // An older state follows the set in the next call.
   if (of.revision > state.set->revision() ||
       (of.revision == state.set->revision() && !is_of_set(of, *state.set)))
-    return Status::failure(StatusCode::size_mismatch, kNone,
-                           "a recorded state of a soft body has %zu particles, or holds, that are "
-                           "not those of the set, which has %u particles",
-                           count, state.set->particle_count());
+    return Status::failure(
+        StatusCode::size_mismatch, kNone,
+        "a recorded state of a soft body has %zu particles, or holds or threads, "
+        "that are not those of the set, which has %u particles",
+        count, state.set->particle_count());
   if (of.contact.colliders.size() != of.contact.before.size())
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "a recorded state of a soft body has other colliders than before");
@@ -228,6 +232,7 @@ void set_state(Recorded&& of, BodyState& state) {
   state.outer.is_disturbed = of.is_disturbed;
   state.sleep.set_still_seconds(of.still_seconds);
   state.holds = std::move(of.holds);
+  state.outer.threads = std::move(of.threads);
   state.graph.is_stale = true;
 }
 

@@ -55,6 +55,7 @@ std::vector<Index> changed_points(const TornModel& model, const Structure& struc
 /// decomposition; those of other points are computed here and not in the next frame.
 void complete(const TornModel& model, const Structure& decomposition, Structure& structure) {
   structure.authored.follow(model, structure.points.vertices, decomposition.points.count());
+  (void)structure.follow_threads(model);
   structure.gradients->forget(model.surface(), changed_points(model, structure, decomposition),
                               nullptr);
   if (structure.gradients->is_wanted()) (void)structure.gradients->of(model.surface(), structure);

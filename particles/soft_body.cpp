@@ -441,4 +441,8 @@ std::uint32_t SoftBody::awake_count() const { return state_->motion.awake_count;
 std::size_t SoftBody::memory_bytes() const { return state_->memory_bytes(); }
 const ContactReport& SoftBody::contacts() const { return state_->contact.report(); }
 
+std::span<const ThreadLoad> thread_loads(const SoftBody& body) {
+  return particles::BodyStateOf::in(body).outer.threads.loads();
+}
+
 }  // namespace sunder

@@ -103,6 +103,14 @@ Result<TearReport> CharacterInstance::weld(const ModelPose& pose, const Weld& we
       change, [&](ChangeRecord* record) { return state_->torn->model.weld(pose, weld, record); });
 }
 
+Result<TearReport> CharacterInstance::suture(const ModelPose& pose, const Suture& suture,
+                                             ChangeRecord* change) {
+  const MemoryScope scope(state_->memory);
+  return state_->change(change, [&](ChangeRecord* record) {
+    return sunder::suture(state_->torn->model, pose, suture, record);
+  });
+}
+
 Result<DetachedPiece> CharacterInstance::detach(const ModelPose& pose, const PiecePlace& place,
                                                 const DetachOptions& options, ChangeRecord* change,
                                                 PieceTissue* tissue) {

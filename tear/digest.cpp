@@ -54,6 +54,12 @@ std::uint64_t TornModel::digest() const {
       if (weight_policy(m, vertex) == WeightPolicy::exact) digest.add(vertex);
     }
   }
+  for (const SutureThread& thread : threads_of(*this)) {
+    digest.add(thread.left);
+    digest.add(thread.right);
+    for (const double value : {thread.stiffness, thread.tension, thread.strength})
+      digest.add(value);
+  }
   return digest.value();
 }
 

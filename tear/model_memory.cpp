@@ -23,7 +23,14 @@ void add(const Operation& operation, MemoryUse& use) {
   }
   if (const auto* cut = std::get_if<CutOperation>(&operation)) add(cut->pose, use);
   if (const auto* drill = std::get_if<DrillOperation>(&operation)) add(drill->pose, use);
-  if (const auto* weld = std::get_if<WeldOperation>(&operation)) add(weld->pose, use);
+  if (const auto* weld = std::get_if<WeldOperation>(&operation)) {
+    add(weld->pose, use);
+    use.add(weld->weld.places);
+  }
+  if (const auto* suture = std::get_if<SutureOperation>(&operation)) {
+    add(suture->pose, use);
+    use.add(suture->suture.places);
+  }
 }
 
 }  // namespace

@@ -46,6 +46,12 @@ class Replay {
     if (!pose) return pose.error();
     return step([&](ChangeRecord* change) { return model_.weld(*pose, operation.weld, change); });
   }
+  Result<TearReport> operator()(const SutureOperation& operation) const {
+    const Result<ModelPose> pose = make_pose(model_.character(), operation.pose);
+    if (!pose) return pose.error();
+    return step(
+        [&](ChangeRecord* change) { return suture(model_, *pose, operation.suture, change); });
+  }
   Result<TearReport> operator()(const DetachOperation& operation) const {
     const Result<ModelPose> pose = make_pose(model_.character(), operation.pose);
     if (!pose) return pose.error();

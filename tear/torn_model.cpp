@@ -16,6 +16,7 @@
 #include "tear/pieces/describe_piece.h"
 #include "tear/surface/compact.h"
 #include "tear/surface/weight_change.h"
+#include "tear/suture/suture.h"
 #include "tear/weld/weld.h"
 
 namespace sunder {
@@ -119,6 +120,19 @@ Result<TearReport> TornModel::weld(const ModelPose& pose, const Weld& weld, Chan
     tear::weld_surface(weld, state.workpiece(), outcome);
   };
   return state.perform<WeldOperation>({pose, state.weights, change}, write_entry, work);
+}
+
+Result<TearReport> suture(TornModel& model, const ModelPose& pose, const Suture& suture,
+                          ChangeRecord* change) {
+  if (Status status = model.unpack(); !status) return status;
+  TornModel::State& state = *model.state_;
+  if (Status status = state.may_begin(); !status) return status;
+  if (Status status = tear::validate_suture(suture); !status) return status;
+  const auto write_entry = [&](SutureOperation& entry) { entry.suture = suture; };
+  const auto work = [&](tear::Outcome& outcome) {
+    tear::tie_threads(suture, state.workpiece(), outcome);
+  };
+  return state.perform<SutureOperation>({pose, state.weights, change}, write_entry, work);
 }
 
 Result<PieceDescription> TornModel::describe_piece(const TornPiece& piece) const {

@@ -70,12 +70,12 @@ struct TearRequest {
   std::filesystem::path model, operations;  ///< No log: empty.
   std::vector<Aimed> aimed;                 ///< In the order in which they were given.
   std::optional<RobotTearRequest> robot;    ///< Tears after all others.
-  /// A weld of the command line, and the option that gives it.
-  struct Welding {
+  /// A weld or suture of the command line, and the option that gives it.
+  struct Closing {
     Operation operation;
     std::string option;
   };
-  std::vector<Welding> welds;                   ///< After all tears.
+  std::vector<Closing> closings;                ///< After all tears: sutures, then welds.
   std::optional<std::filesystem::path> output;  ///< Only empty in a dry run.
   SaveOptions save;                             ///< How influences are written.
   /// Chooses influences and formats in place of `save`.

@@ -34,7 +34,7 @@ constexpr std::array kFamilies = {
     Family{"cuts", "300 cuts one after another", false, 1, many_cuts},
     Family{"region", "1,000 tears of the same region in changing poses", false, 1, one_region},
     Family{"suture",
-           "wounds that cross one another, with walls and caps, and welds of parts of them", false,
+           "wounds that cross one another, with walls and caps, sutures and welds of them", false,
            100, welded_wounds},
     Family{"capacities", "models of every capacity", true, 20, every_capacity},
     Family{"allocations", "operations that run out of memory at each of their allocations", true, 2,

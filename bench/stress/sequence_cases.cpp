@@ -52,6 +52,8 @@ void welded_wounds(std::uint64_t seed, const Steps& steps, CaseReport& report) {
     if (numbers.index(3) == 0)
       of.operate(test::random_weld(of.model(), numbers));
     else if (numbers.index(4) == 0)
+      of.operate(test::random_suture(of.model(), numbers));
+    else if (numbers.index(4) == 0)
       of.operate(test::random_operation(of.model(), numbers));
     else
       of.operate(test::random_lossless_operation(of.model(), numbers, true));

@@ -105,6 +105,15 @@ sunder_status submit_plain(sunder_scene scene, sunder_instance instance, sunder_
   return guarded([&] { return submit(scene, instance, Command(), 0, number); });
 }
 
+/// The places of a weld or suture.
+template <class Closing>
+sunder_status read_wounds(const Closing& from, std::vector<sunder::Vec3d>& places) {
+  if (from.places != nullptr && from.place_count == 0)
+    return report(sunder::Status::failure(sunder::StatusCode::invalid_argument, sunder::kNone,
+                                          "places of wounds are none; null means all wounds"));
+  return read_places(from.places, from.place_count, "places", places);
+}
+
 }  // namespace
 }  // namespace sunder::c
 
@@ -140,6 +149,18 @@ sunder_bore sunder_default_bore(void) {
 }
 
 sunder_weld sunder_default_weld(void) { return {sizeof(sunder_weld), 0, nullptr, 0.0}; }
+
+sunder_suture sunder_default_suture(void) {
+  const sunder::Suture defaults;
+  return {sizeof(sunder_suture),
+          0,
+          nullptr,
+          defaults.reach,
+          defaults.spacing,
+          defaults.stiffness,
+          defaults.tension,
+          defaults.strength};
+}
 
 sunder_detach sunder_default_detach(void) {
   const sunder::DetachOptions defaults;
@@ -197,10 +218,23 @@ sunder_status sunder_submit_weld(sunder_scene scene, sunder_instance instance,
     SUNDER_C_TRY(check_struct(weld, "weld"));
     sunder::Weld wanted;
     wanted.reach = weld->reach;
-    if (weld->places != nullptr && weld->place_count == 0)
-      return report(sunder::Status::failure(sunder::StatusCode::invalid_argument, sunder::kNone,
-                                            "places of the weld are none; null means all wounds"));
-    SUNDER_C_TRY(read_places(weld->places, weld->place_count, "places", wanted.places));
+    SUNDER_C_TRY(read_wounds(*weld, wanted.places));
+    return submit(scene, instance, std::move(wanted), flags, command);
+  });
+}
+
+sunder_status sunder_submit_suture(sunder_scene scene, sunder_instance instance,
+                                   const sunder_suture* suture, uint32_t flags,
+                                   sunder_command* command) {
+  return guarded([&]() -> sunder_status {
+    SUNDER_C_TRY(check_struct(suture, "suture"));
+    sunder::Suture wanted;
+    SUNDER_C_TRY(read_wounds(*suture, wanted.places));
+    wanted.reach = suture->reach;
+    wanted.spacing = suture->spacing;
+    wanted.stiffness = suture->stiffness;
+    wanted.tension = suture->tension;
+    wanted.strength = suture->strength;
     return submit(scene, instance, std::move(wanted), flags, command);
   });
 }

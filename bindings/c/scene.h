@@ -31,6 +31,7 @@ struct SceneObject : Object {
   // Memory of views.
   std::vector<sunder_result> results;
   std::vector<sunder_instance> drawn;
+  std::vector<sunder_thread> threads;
   MeshView mesh_view;
 };
 

@@ -71,6 +71,32 @@ sunder_status sunder_get_tissue(sunder_scene scene, sunder_instance instance,
   });
 }
 
+sunder_status sunder_get_threads(sunder_scene scene, sunder_instance instance,
+                                 const sunder_thread** threads, uint32_t* count) {
+  return guarded([&]() -> sunder_status {
+    Found found;
+    SUNDER_C_TRY(find_instance(scene, instance, found));
+    if (threads == nullptr) return null_pointer("threads");
+    if (count == nullptr) return null_pointer("count");
+    std::vector<sunder_thread>& read = found.scene->threads;
+    read.clear();
+    const sunder::TornModel* const model = found.instance->model();
+    std::span<const sunder::ThreadLoad> loads;
+    if (const auto* const body = found.instance->body()) loads = sunder::thread_loads(*body);
+    if (model != nullptr)
+      for (const sunder::SutureThread& thread : sunder::threads_of(*model)) {
+        const auto left = vertex_at(*model, thread.left), right = vertex_at(*model, thread.right);
+        sunder::ThreadLoad load;
+        if (read.size() < loads.size()) load = loads[read.size()];
+        read.push_back({left.mesh, left.vertex, right.mesh, right.vertex, load.newtons,
+                        load.is_broken ? 1u : 0u, 0});
+      }
+    *threads = read.data();
+    *count = static_cast<uint32_t>(read.size());
+    return SUNDER_OK;
+  });
+}
+
 sunder_status sunder_get_point(sunder_scene scene, sunder_instance instance, uint32_t mesh,
                                uint32_t vertex, uint32_t* point) {
   return call_body(scene, instance, [&](const Found& found, sunder::SoftBody&) -> sunder_status {

@@ -19,11 +19,8 @@ void add(std::vector<RestMorphTerm>& terms, Index morph_weight, Index slot, cons
 }  // namespace
 
 VertexRef vertex_of(const TornModel& model, Index point) {
-  const tear::Surface& surface = model.surface();
-  const Index corner = surface.point_corner[point];
-  if (corner == kNone) return {};
-  const tear::TriangleRef ref = surface.triangle(corner / 3);
-  return {ref.mesh, model.character().meshes[ref.mesh].triangles[ref.triangle][corner % 3]};
+  const MeshVertex at = vertex_at(model, point);
+  return {at.mesh, at.vertex};
 }
 
 std::vector<MeshRestTerms> rest_terms_of(const TornModel& model,

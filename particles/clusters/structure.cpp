@@ -28,6 +28,7 @@ std::unique_ptr<Structure> Structure::copy() const {
   made->particles = particles;
   made->members = members;
   made->lips = lips;
+  made->tears.threads = tears.threads;
   if (const std::size_t known = gradients->known().size(); known > 0)
     made->gradients->make_room(known + 1);
   *made->gradients = *gradients;
@@ -63,6 +64,13 @@ void Structure::prepare_for_tears(Index triangles) {
   make_room(points.count() + 1);
   for (std::vector<Index>& of_mesh : vertex_points.of_mesh)
     reserve_eighth(of_mesh, of_mesh.size() + 1);
+}
+
+bool Structure::follow_threads(const TornModel& model) {
+  const std::span<const SutureThread> now = threads_of(model);
+  if (std::equal(now.begin(), now.end(), tears.threads.begin(), tears.threads.end())) return false;
+  tears.threads.assign(now.begin(), now.end());
+  return true;
 }
 
 void Structure::note_dirty_points() {

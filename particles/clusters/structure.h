@@ -62,6 +62,7 @@ struct TearLog {
   /// The work that is left while operations could be redone. It waits for the next operation,
   /// because the redone values are those of the work as it was.
   std::shared_ptr<const PendingWork> waiting;
+  std::vector<SutureThread> threads;  ///< Of the model when it was last followed.
   Index triangle_count = 0;  ///< Of the surface when it was last followed.
   bool is_broken = false;    ///< Memory ran out in the middle of an update.
 };
@@ -125,6 +126,8 @@ struct Structure {
     for (const Index point : members.joined[particle])
       if (point < points.count()) visit(point);
   }
+  /// Follows threads that were tied or undone. @return whether there were any.
+  bool follow_threads(const TornModel& model);
   /// Adds the dirty points to the journal, at the end of a call.
   void note_dirty_points();
 };

@@ -63,6 +63,13 @@ inline constexpr double kCrowdedCoupling = 1;
 /// those of walls and caps, and those to whose seed no point is nearest.
 inline constexpr double kLeastCellArea = 0.01;
 
+// ---- Threads of sutures.
+
+/// A thread that is longer than this pulls with all of its tension.
+inline constexpr double kTautRanges = 1e-3;
+/// A change of a thread's length that wakes tissue at its ends, in such lengths.
+inline constexpr double kFeltThreadLengths = 0.5;
+
 // ---- Sleep. Bound particles (held, touched, at a stretch limit) and their neighbours are pulled
 // away and pushed back in every step, so they never stop moving a little.
 

@@ -85,13 +85,13 @@ void CouplingSolver::assemble_still(const Inputs& in, Index row) {
 }
 
 void CouplingSolver::assemble_pull(const Inputs& in, const PointPull& pull) {
-  std::array<Index, 4> rows = {};
-  std::array<double, 4> weights = {};
+  std::array<Index, PointPull::kMost> rows = {};
+  std::array<double, PointPull::kMost> weights = {};
   std::size_t count = 0;
   double least = std::numeric_limits<double>::infinity(), greatest = 0;
   Vec3d place = -pull.target, velocity = Vec3d::Zero();
-  for (std::size_t k = 0; k < 4; ++k) {
-    if (!(pull.weights[k] > 0)) continue;
+  for (std::size_t k = 0; k < PointPull::kMost; ++k) {
+    if (pull.weights[k] == 0) continue;
     const Index p = pull.particles[k];
     place += pull.weights[k] * in.places[p];
     velocity += pull.weights[k] * in.velocities[p];
@@ -137,7 +137,7 @@ void CouplingSolver::assemble(const Inputs& in) {
   });
 
   auto& [first, columns, pulls] = matrix_.pattern;
-  const std::size_t most = in.graph.springs.size() / 2 + 4 * in.pulls.size();
+  const std::size_t most = in.graph.springs.size() / 2 + PointPull::kMost * in.pulls.size();
   first.assign(1, 0);
   columns.clear();
   columns.reserve(most);

@@ -8,13 +8,14 @@
 
 namespace sunder::particles {
 
-/// A pull on a point, that is on a weighted sum of displacements.
+/// A pull on a weighted sum of displacements: that of a point, or of the way between two.
 struct PointPull {
-  std::array<Index, 4> particles = {};
-  std::array<double, 4> weights = {};  ///< 0 where there are fewer particles.
-  double stiffness = 0;                ///< Newtons per metre.
-  double frequency = 0;                ///< Root of the stiffness by mass; radians per second.
-  Vec3d target = Vec3d::Zero();        ///< Of the weighted sum, metres.
+  static constexpr std::size_t kMost = 8;
+  std::array<Index, kMost> particles = {};  ///< Each once.
+  std::array<double, kMost> weights = {};   ///< 0 where there are fewer particles.
+  double stiffness = 0;                     ///< Newtons per metre.
+  double frequency = 0;                     ///< Root of the stiffness by mass; radians per second.
+  Vec3d target = Vec3d::Zero();             ///< Of the weighted sum, metres.
 };
 
 /// Solves for the contribution of springs between particles, and of pulls on points, to a step in

@@ -78,13 +78,13 @@ void HoldList::follow(const ParticleSet& set) {
 }
 
 void HoldList::begin_step(const TornModel& model, const ModelPose& pose, const RestMotion& rests,
-                          std::span<const double> masses, EpochPose& poses, Motion& motion) {
-  pulls_.clear();
+                          std::span<const double> masses, EpochPose& poses, Motion& motion,
+                          std::vector<PointPull>& pulls) {
   for (Hold& hold : holds_) {
-    PointPull& pull = pulls_.emplace_back();
+    PointPull& pull = pulls.emplace_back();
     double mass = 0;
-    pull.particles = hold.whom.particles;
     for (std::size_t k = 0; k < 4; ++k) {
+      pull.particles[k] = hold.whom.particles[k];
       pull.weights[k] = double{hold.whom.weights[k]};
       if (pull.weights[k] > 0) mass += pull.weights[k] * masses[pull.particles[k]];
     }

@@ -37,10 +37,11 @@ class HoldList {
       for (std::size_t k = 0; k < 4 && hold.whom.weights[k] > 0; ++k) visit(hold.whom.particles[k]);
   }
 
-  /// Sets up pulls() for a step, and wakes the particles whose pull differs from that of the last
+  /// Adds the pulls of a step, and wakes the particles whose pull differs from that of the last
   /// step.
   void begin_step(const TornModel& model, const ModelPose& pose, const RestMotion& rests,
-                  std::span<const double> masses, EpochPose& poses, Motion& motion);
+                  std::span<const double> masses, EpochPose& poses, Motion& motion,
+                  std::vector<PointPull>& pulls);
   /// Passes its state to a tape. Afterwards find_held() or follow() is to be called.
   template <class Tape>
   void describe(Tape& tape, Index particles, Index points) {
@@ -69,7 +70,6 @@ class HoldList {
   /// Finds the particles that move what is held, for holds of this state of the set.
   /// @return false if a hold is of nothing that is there.
   [[nodiscard]] bool find_held(const ParticleSet& set);
-  [[nodiscard]] std::span<const PointPull> pulls() const { return pulls_; }
 
  private:
   struct Hold;
@@ -90,7 +90,6 @@ class HoldList {
   };
 
   std::vector<Hold> holds_;
-  std::vector<PointPull> pulls_;
   HoldId next_ = 1;
 };
 

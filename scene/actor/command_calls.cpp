@@ -16,6 +16,7 @@ class CommandCalls {
   Result<TearReport> operator()(const PlaneCut& of) { return instance_.cut(pose_, of, record()); }
   Result<TearReport> operator()(const Bore& of) { return instance_.drill(pose_, of, record()); }
   Result<TearReport> operator()(const Weld& of) { return instance_.weld(pose_, of, record()); }
+  Result<TearReport> operator()(const Suture& of) { return instance_.suture(pose_, of, record()); }
   Result<TearReport> operator()(const BeginStrokeCommand& of) {
     return report_of(instance_.begin_stroke(pose_, of.blade, of.options, of.sampling));
   }
@@ -67,6 +68,8 @@ std::optional<Operation> operation_of(const SceneCommand& command, const ModelPo
   if (const auto* const cut = std::get_if<PlaneCut>(&command)) return CutOperation{pose, *cut};
   if (const auto* const bore = std::get_if<Bore>(&command)) return DrillOperation{pose, *bore};
   if (const auto* const weld = std::get_if<Weld>(&command)) return WeldOperation{pose, *weld};
+  if (const auto* const suture = std::get_if<Suture>(&command))
+    return SutureOperation{pose, *suture};
   if (const auto* const weights = std::get_if<WeightsOperation>(&command)) return *weights;
   if (const auto* const detach = std::get_if<DetachCommand>(&command))
     return DetachOperation{pose, detach->piece};

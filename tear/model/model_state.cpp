@@ -196,7 +196,8 @@ TornPieces TornModel::State::find_pieces_of_call(bool names_all, const tear::Out
 }
 
 void TornModel::State::record(const tear::EditLog::Mark& begin) {
-  if (editor.log.numbers_since(begin) == 0) return;  // nothing changed
+  const bool has_threads = editor.connectivity.threads().size() > begin.threads;
+  if (editor.log.numbers_since(begin) == 0 && !has_threads) return;  // nothing changed
   history.filled().begin = begin;
   history.push(borders_.of_operation);
   editor.drop_inner_changes(begin);

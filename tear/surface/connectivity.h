@@ -55,6 +55,8 @@ class Connectivity {
   /// Remembers the points of an edge that was welded.
   void append_scar(const std::array<Index, 2>& points) { columns_.scars.push_back(points); }
   [[nodiscard]] std::span<const std::array<Index, 2>> scars() const { return columns_.scars; }
+  void append_thread(const SutureThread& thread) { columns_.threads.push_back(thread); }
+  [[nodiscard]] std::span<const SutureThread> threads() const { return columns_.threads; }
   /// A triangle that is split from `like`. It has no twins.
   Index append_part(Index like, const std::array<Index, 3>& points, const Triangle& vertices);
   /// The triangle of a filling. It has no twins.

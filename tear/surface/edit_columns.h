@@ -98,6 +98,7 @@ struct EditColumns {
   std::vector<TriangleChange> triangle_changes;
   std::vector<SideChange> side_changes;     ///< The same for _TEARSIDE.
   std::vector<std::array<Index, 2>> scars;  ///< The points of each edge that was welded.
+  std::vector<SutureThread> threads;
 };
 
 /// The element that one row of a column describes.
@@ -111,6 +112,7 @@ enum class Rows : std::uint8_t {
   triangle_changes,
   side_changes,
   scars,
+  threads,
   mesh_vertices,  // from here on per mesh
   mesh_triangles,
   mesh_fillings,
@@ -174,6 +176,7 @@ void for_each_common_column(Visit visit, Tables&... of) {
   visit(Column{Rows::triangle_changes}, of.edit.triangle_changes...);
   visit(Column{Rows::side_changes}, of.edit.side_changes...);
   visit(Column{Rows::scars}, of.edit.scars...);
+  visit(Column{Rows::threads}, of.edit.threads...);
 }
 
 /// Calls visit(Column, values...) for each column of a mesh.

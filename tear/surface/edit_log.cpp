@@ -14,7 +14,8 @@ EditLog::Mark EditLog::mark(Index next_side, Index opened_changes) {
                   static_cast<Index>(columns_.triangle_changes.size()),
                   static_cast<Index>(columns_.side_changes.size()),
                   opened_changes,
-                  static_cast<Index>(columns_.scars.size())};
+                  static_cast<Index>(columns_.scars.size()),
+                  static_cast<Index>(columns_.threads.size())};
   return newest_mark_;
 }
 
@@ -96,6 +97,7 @@ RowCounts EditLog::rows_since(const Mark& mark) const {
       static_cast<Index>(columns_.triangle_changes.size()) - mark.triangle_changes;
   rows[Rows::side_changes] = static_cast<Index>(columns_.side_changes.size()) - mark.side_changes;
   rows[Rows::scars] = static_cast<Index>(columns_.scars.size()) - mark.scars;
+  rows[Rows::threads] = static_cast<Index>(columns_.threads.size()) - mark.threads;
   return rows;
 }
 

@@ -23,6 +23,7 @@ class EditLog {
     Index side_changes = 0;
     Index opened_changes = 0;  ///< OpenedEdges::change_count().
     Index scars = 0;
+    Index threads = 0;
 
     bool operator==(const Mark&) const = default;
   };

@@ -81,6 +81,7 @@ void MemoryUse::add(const EditColumns& columns) {
   add(columns.triangle_changes);
   add(columns.side_changes);
   add(columns.scars);
+  add(columns.threads);
 }
 
 }  // namespace sunder::tear

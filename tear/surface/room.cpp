@@ -27,7 +27,7 @@ bool comes_with_vertices(Rows rows) {
 /// Whether the capacity limits the number of rows, rather than what they depend on.
 bool is_limited(Rows rows) {
   return rows != Rows::side_changes && rows != Rows::mesh_fillings && rows != Rows::additions &&
-         rows != Rows::triangle_changes && rows != Rows::scars;
+         rows != Rows::triangle_changes && rows != Rows::scars && rows != Rows::threads;
 }
 
 bool comes_with_triangles(Rows rows) {
@@ -174,6 +174,11 @@ void Room::make_for_welds(std::size_t edges, std::size_t side_changes) {
   };
   make(columns_.edit.scars, edges);
   make(columns_.edit.side_changes, side_changes);
+}
+
+void Room::make_for_threads(std::size_t count) {
+  auto& threads = columns_.edit.threads;
+  if (threads.capacity() - threads.size() < count) grow(threads, count, nullptr);
 }
 
 void Room::make_for_kept_birth(std::size_t influences) {

@@ -56,6 +56,7 @@ class Room {
   /// Makes room for welded edges, and for values of _TEARSIDE that change with them. Not limited,
   /// because a weld appends no elements.
   void make_for_welds(std::size_t edges, std::size_t side_changes);
+  void make_for_threads(std::size_t count);
   void make_for_influences(Index mesh, std::size_t more);
   /// Makes room for a point without a vertex.
   void make_for_point() {

@@ -5,6 +5,7 @@
 #include <queue>
 
 #include "core/internal/ordered.h"
+#include "core/operation/internal/field_ranges.h"
 
 namespace sunder::tear {
 namespace {
@@ -119,14 +120,27 @@ class Wounds {
 
 }  // namespace
 
-ScratchVector<bool> choose_lips(const Weld& weld, std::span<const Lip> lips,
+Status ChosenWounds::validate(const char* what) const {
+  for (Index i = 0; i < places.size(); ++i) {
+    if (!places[i].allFinite())
+      return Status::failure(StatusCode::non_finite_value, i,
+                             "place %u near the wounds to %s is not finite", i, what);
+    if (places[i].cwiseAbs().maxCoeff() > kFarthestMetres)
+      return Status::failure(StatusCode::invalid_argument, i,
+                             "place %u near the wounds to %s lies beyond 1e60", i, what);
+  }
+  return {};
+}
+
+ScratchVector<bool> choose_lips(const ChosenWounds& wounds, std::span<const Lip> lips,
                                 std::span<const LipOverlap> overlaps, const Workpiece& work) {
   work.posed.cover(work.editor.surface().point_count());
-  const Wounds wounds(lips, overlaps, work);
+  const Wounds known(lips, overlaps, work);
   ScratchVector<bool> is_chosen(lips.size(), false, &work.editor.scratch());
-  for (Index i = 0; weld.places.empty() && i < lips.size(); ++i) is_chosen[i] = wounds.is_paired(i);
-  for (const Vec3d& place : weld.places)
-    wounds.mark(place, weld.reach > 0 ? weld.reach : kFar, is_chosen);
+  for (Index i = 0; wounds.places.empty() && i < lips.size(); ++i)
+    is_chosen[i] = known.is_paired(i);
+  for (const Vec3d& place : wounds.places)
+    known.mark(place, wounds.reach > 0 ? wounds.reach : kFar, is_chosen);
   return is_chosen;
 }
 

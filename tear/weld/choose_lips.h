@@ -1,14 +1,25 @@
 #pragma once
 
-#include <sunder/operation/operation.h>
+#include <sunder/core/status.h>
+
+#include <span>
 
 #include "tear/posed/workpiece.h"
 #include "tear/weld/lip_partners.h"
 
 namespace sunder::tear {
 
-/// Which lips a weld closes, of those that have others on them: per lip.
-[[nodiscard]] ScratchVector<bool> choose_lips(const Weld& weld, std::span<const Lip> lips,
+/// The wounds that an operation closes: Weld, Suture.
+struct ChosenWounds {
+  std::span<const Vec3d> places;  ///< None: all wounds.
+  double reach;
+
+  /// @param what  "weld".
+  [[nodiscard]] Status validate(const char* what) const;
+};
+
+/// Which lips are meant, of those that have others on them: per lip.
+[[nodiscard]] ScratchVector<bool> choose_lips(const ChosenWounds& wounds, std::span<const Lip> lips,
                                               std::span<const LipOverlap> overlaps,
                                               const Workpiece& work);
 

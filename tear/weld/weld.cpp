@@ -51,7 +51,8 @@ ChosenEdges choose_and_split(const Weld& weld, const Workpiece& work, Outcome& o
   ScratchMemory& scratch = work.editor.scratch();
   const ScratchVector<Lip> lips = find_lips(work.editor);
   const ScratchVector<LipOverlap> overlaps = find_overlaps(lips, scratch);
-  const ScratchVector<bool> is_chosen = choose_lips(weld, lips, overlaps, work);
+  const ScratchVector<bool> is_chosen =
+      choose_lips({weld.places, weld.reach}, lips, overlaps, work);
   ScratchVector<ScratchVector<double>> shares(&scratch);
   shares.resize(lips.size());
   for (const LipOverlap& of : overlaps) {
@@ -208,14 +209,8 @@ double posed_length_of(std::span<const Index> half_edges, const Workpiece& work)
 }  // namespace
 
 Status validate_weld(const Weld& weld) {
-  for (Index i = 0; i < weld.places.size(); ++i) {
-    if (!weld.places[i].allFinite())
-      return Status::failure(StatusCode::non_finite_value, i,
-                             "place %u near the wounds to weld is not finite", i);
-    if (weld.places[i].cwiseAbs().maxCoeff() > kFarthestMetres)
-      return Status::failure(StatusCode::invalid_argument, i,
-                             "place %u near the wounds to weld lies beyond 1e60", i);
-  }
+  if (Status status = ChosenWounds{weld.places, weld.reach}.validate("weld"); !status)
+    return status;
   return check_ranges(weld);
 }
 

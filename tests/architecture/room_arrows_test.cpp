@@ -29,8 +29,9 @@ using Rooms = std::map<std::string, std::set<std::string>>;
 const std::map<std::string, Rooms> kRooms = {
     {"tear",
      {{".",
-       {"model", "detached", "weld", "operation", "pieces", "posed", "surface", "weights",
+       {"model", "detached", "suture", "weld", "operation", "pieces", "posed", "surface", "weights",
         "geometry"}},
+      {"suture", {"weld", "operation", "posed", "surface", "geometry"}},
       {"weld", {"operation", "sheet", "posed", "surface", "geometry"}},
       {"model", {"detached", "operation", "pieces", "posed", "surface", "weights", "geometry"}},
       {"contact", {"model", "operation", "pieces", "posed", "surface", "geometry"}},

@@ -108,6 +108,10 @@ TEST(COperations, WeldsHaveTheDescribedFields) {
   compare<Weld>("sunder_weld", sunder_default_weld());
 }
 
+TEST(COperations, SuturesHaveTheDescribedFields) {
+  compare<Suture>("sunder_suture", sunder_default_suture());
+}
+
 TEST(COperations, EnumeratorsAreThoseOfLogs) {
   EXPECT_EQ(SUNDER_LAYERS_ALL, static_cast<int>(last_named<Layers>()));
   EXPECT_EQ(SUNDER_WEIGHTS_EXACT, static_cast<int>(last_named<WeightPolicy>()));

@@ -12,6 +12,36 @@
 namespace sunder::test {
 namespace {
 
+TEST(CTissue, threads_hold_vertices_of_both_lips) {
+  Twins twins(make_tube(24, 12, 6));
+  twins.update();
+  sunder_cut cut = sunder_default_cut();
+  cut.normal[1] = 1.0;
+  cut.normal[2] = 0.0;
+  cut.point[1] = 0.51;
+  const sunder_thread* threads = nullptr;
+  std::uint32_t count = 7;
+  EXPECT_DONE(sunder_get_threads(twins.c_scene, twins.c_id, &threads, &count));
+  EXPECT_EQ(count, 0u);
+  EXPECT_DONE(sunder_submit_cut(twins.c_scene, twins.c_id, &cut, 0, nullptr));
+  sunder_suture suture = sunder_default_suture();
+  suture.spacing = 0.1;
+  EXPECT_DONE(sunder_submit_suture(twins.c_scene, twins.c_id, &suture, 0, nullptr));
+  EXPECT_DONE(sunder_update(twins.c_scene, 0.0));
+  EXPECT_DONE(sunder_get_threads(twins.c_scene, twins.c_id, &threads, &count));
+  EXPECT_GT(count, 3u);
+  const sunder_posed_mesh posed = posed_mesh(twins.c_scene, twins.c_id, 0);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    EXPECT_EQ(threads[i].is_broken, 0u);
+    ASSERT_LT(threads[i].left_vertex, posed.vertex_count);
+    ASSERT_LT(threads[i].right_vertex, posed.vertex_count);
+    EXPECT_NE(threads[i].left_vertex, threads[i].right_vertex);
+    for (std::uint32_t k = 0; k < 3; ++k)
+      EXPECT_NEAR(posed.positions[3 * threads[i].left_vertex + k],
+                  posed.positions[3 * threads[i].right_vertex + k], 1e-3);
+  }
+}
+
 TEST(CTissue, a_piece_comes_off) {
   Twins twins(make_tube(24, 12, 6));
   twins.update();

@@ -158,8 +158,20 @@ inline void submit_random(Twins& twins, Random& random) {
       c_weld.places = weld.places.empty() ? nullptr : numbers.data();
       c_weld.place_count = static_cast<std::uint32_t>(weld.places.size());
       c_weld.reach = weld.reach;
-      EXPECT_DONE(sunder_submit_weld(twins.c_scene, twins.c_id, &c_weld, 0, nullptr));
-      command = weld;
+      if (random.index(3) > 0) {
+        EXPECT_DONE(sunder_submit_weld(twins.c_scene, twins.c_id, &c_weld, 0, nullptr));
+        command = weld;
+        break;
+      }
+      Suture suture{weld.places, weld.reach};
+      suture.spacing = random.uniform(0.01, 0.1);
+      sunder_suture c_suture = sunder_default_suture();
+      c_suture.places = c_weld.places;
+      c_suture.place_count = c_weld.place_count;
+      c_suture.reach = suture.reach;
+      c_suture.spacing = suture.spacing;
+      EXPECT_DONE(sunder_submit_suture(twins.c_scene, twins.c_id, &c_suture, 0, nullptr));
+      command = suture;
       break;
     }
     case 2:

@@ -111,6 +111,7 @@ INSTANTIATE_TEST_SUITE_P(
         Table{"Cut", "\n## `cut`\n", kFields, described_fields<CutOperation>()},
         Table{"Drill", "\n## `drill`\n", kFields, described_fields<DrillOperation>()},
         Table{"Weld", "\n## `weld`\n", kFields, described_fields<WeldOperation>()},
+        Table{"Suture", "\n## `suture`\n", kFields, described_fields<SutureOperation>()},
         Table{"Detach", "\n## `detach`\n", kFields, described_fields<DetachOperation>()},
         Table{"Weights", "\n## `weights`\n", kFields, described_fields<WeightsOperation>()},
         Table{"WeightOptions", "\n## `weights`\n", "| field of `weights`",
@@ -246,9 +247,9 @@ using DescribedStructs =
     testing::Types<TearOptions, PlaneCut, Bore, SectionRay, Blade, WeightOptions, WeightsOperation,
                    RefitOptions, RefitImportance, RefitImportance::OfClip, PoseSetSpec, JointLimit,
                    ClipPose, TearOperation, CutOperation, DrillOperation, Weld, WeldOperation,
-                   DetachOperation, PieceOfTriangle, PieceNear, UndoOperation, RedoOperation,
-                   SlashOperation, SeverOperation, PunctureOperation, IncisionOperation,
-                   SurfacePlace>;
+                   Suture, SutureOperation, DetachOperation, PieceOfTriangle, PieceNear,
+                   UndoOperation, RedoOperation, SlashOperation, SeverOperation, PunctureOperation,
+                   IncisionOperation, SurfacePlace>;
 TYPED_TEST_SUITE(DescribedMembers, DescribedStructs);
 
 TYPED_TEST(DescribedMembers, AreAllMembers) {

@@ -171,6 +171,18 @@ WeldOperation any_weld(Random& random) {
   return operation;
 }
 
+SutureOperation any_suture(Random& random) {
+  SutureOperation operation{any_pose(random), {}};
+  Suture& suture = operation.suture;
+  for (std::uint32_t i = random.index(4); i > 0; --i) suture.places.push_back(any_point(random));
+  suture.reach = random.index(2) == 0 ? 0.0 : any_above_zero(random);
+  suture.spacing = any_above_zero(random);
+  suture.stiffness = random.uniform(1e-3, 1e12);
+  suture.tension = random.index(2) == 0 ? 0.0 : random.uniform(0, 1e12);
+  suture.strength = random.index(2) == 0 ? 0.0 : random.uniform(0, 1e12);
+  return operation;
+}
+
 DetachOperation any_detach(Random& random) {
   if (random.index(2) == 0)
     return {any_pose(random), PieceOfTriangle{random.index(kNone), random.index(kNone)}};
@@ -210,7 +222,7 @@ WeightsOperation any_weights_operation(Random& random) {
 }
 
 Operation any_operation(Random& random) {
-  switch (random.index(11)) {
+  switch (random.index(12)) {
     case 0: return UndoOperation{1 + random.index(kNone - 1)};
     case 1: return RedoOperation{1 + random.index(kNone - 1)};
     case 2:
@@ -221,6 +233,7 @@ Operation any_operation(Random& random) {
     case 7: return any_weights_operation(random);
     case 8: return any_detach(random);
     case 9: return any_weld(random);
+    case 10: return any_suture(random);
     default: return any_tear(random);
   }
 }
@@ -304,6 +317,11 @@ class Bits {
   }
   void add(const WeldOperation& operation) {
     add(operation.pose), add(operation.weld.places), add(operation.weld.reach);
+  }
+  void add(const SutureOperation& operation) {
+    const Suture& of = operation.suture;
+    add(operation.pose), add(of.places), add(of.reach), add(of.spacing), add(of.stiffness);
+    add(of.tension), add(of.strength);
   }
   void add(const WeightsOperation& operation) {
     add(operation.first_operation), add(operation.operation_count), add(operation.weights),

@@ -14,6 +14,7 @@
 #include "support/models/make_model.h"
 #include "support/models/random_operations.h"
 #include "support/models/rigs.h"
+#include "support/oracles/posed_points.h"
 #include "tear/internal/surface.h"
 
 namespace sunder {
@@ -21,20 +22,8 @@ namespace {
 
 using test::down_at;
 using test::make_model;
+using test::posed_points;
 using test::Random;
-
-/// Posed positions of the points that have a face.
-std::map<std::uint32_t, Vec3d> posed_points(const TornModel& model, const ModelPose& pose) {
-  std::map<std::uint32_t, Vec3d> places;
-  for (std::uint32_t m = 0; m < model.character().meshes.size(); ++m) {
-    const Mesh& mesh = model.character().meshes[m];
-    const auto positions = test::posed_positions(model.character(), m, pose);
-    for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t)
-      for (std::uint32_t k = 0; k < 3 && !is_retired(mesh.triangles[t]); ++k)
-        places.emplace(model.point_at(m, t, k), positions[mesh.triangles[t][k]]);
-  }
-  return places;
-}
 
 /// The mean of the centres of a point's faces.
 Vec3d middle_of_fan(std::uint32_t point, const TornModel& model,

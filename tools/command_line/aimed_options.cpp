@@ -15,6 +15,7 @@ constexpr const char* kSlash = "--slash";
 constexpr const char* kSever = "--sever";
 constexpr const char* kPuncture = "--puncture";
 constexpr const char* kWeld = "--weld";
+constexpr const char* kSuture = "--suture";
 
 /// An option that may be given several times, with one value each.
 void add(CLI::App& verb, const char* name, const std::string& description) {
@@ -22,6 +23,14 @@ void add(CLI::App& verb, const char* name, const std::string& description) {
           name, [](const std::vector<std::string>&) {}, description)
       ->allow_extra_args(false)
       ->type_name("BONE[@SHARE][,FIELD=VALUE...]")
+      ->group("Aimed operations");
+}
+
+void add_closing(CLI::App& verb, const char* name, const std::string& description) {
+  verb.add_option_function<std::vector<std::string>>(
+          name, [](const std::vector<std::string>&) {}, description)
+      ->allow_extra_args(false)
+      ->type_name("all|X/Y/Z[,FIELD=VALUE...]")
       ->group("Aimed operations");
 }
 
@@ -61,14 +70,13 @@ void add_aimed_operations(CLI::App& verb) {
           "; detach: take off what comes free, with hats, eyes and axes that move with it, or "
           "parts=none without them");
   add(verb, kPuncture, "Bore into the limb of a bone; " + fields_of(kPuncture));
-  verb.add_option_function<std::vector<std::string>>(
-          kWeld, [](const std::vector<std::string>&) {},
-          "Close wounds again, after all tears: all, or the one nearest to a place, as far along "
-          "it "
-          "as reach=METRES; docs/tear.md. Repeatable")
-      ->allow_extra_args(false)
-      ->type_name("all|X/Y/Z[,reach=METRES]")
-      ->group("Aimed operations");
+  add_closing(verb, kSuture,
+              "Sew wounds, after all tears: all, or the one nearest to a place; fields: reach, "
+              "spacing (metres), stiffness (N/m), tension, strength (newtons). With --open the "
+              "lips gape between the threads; docs/tear.md. Repeatable");
+  add_closing(verb, kWeld,
+              "Close wounds again, after all tears: all, or the one nearest to a place, as far "
+              "along it as reach=METRES; docs/tear.md. Repeatable");
   verb.add_option(
           "--pose",
           "The pose for the options above and for --robot: rest, bind, or a clip at a time in "
@@ -105,14 +113,18 @@ void read_aimed_operations(const CLI::App& verb, TearRequest& request) {
     if (!aimed) throw CLI::ValidationError(name + " " + text, std::string(aimed.error().text()));
     request.aimed.push_back(*aimed);
   }
-  if (verb.count(kWeld) > 0)
-    for (const std::string& text : verb.get_option(kWeld)->results()) {
-      const auto weld = parse_weld_option(text, pose);
-      if (!weld) throw CLI::ValidationError(kWeld + (" " + text), std::string(weld.error().text()));
-      request.welds.push_back({*weld, kWeld + (" " + text)});
+  for (const char* const name : {kSuture, kWeld}) {
+    if (verb.count(name) == 0) continue;
+    for (const std::string& text : verb.get_option(name)->results()) {
+      const auto closing = parse_closing_option(name + 2, text, pose);
+      const std::string option = name + (" " + text);
+      if (!closing) throw CLI::ValidationError(option, std::string(closing.error().text()));
+      request.closings.push_back({*closing, option});
     }
-  if (pose && request.aimed.empty() && request.welds.empty() && verb.count("--robot") == 0)
-    throw CLI::ValidationError("--pose", "needs --slash, --sever, --puncture, --weld or --robot");
+  }
+  if (pose && request.aimed.empty() && request.closings.empty() && verb.count("--robot") == 0)
+    throw CLI::ValidationError("--pose",
+                               "needs --slash, --sever, --puncture, --suture, --weld or --robot");
 }
 
 }  // namespace sunder::tools

@@ -21,6 +21,7 @@ std::vector<PoseSpec> pose_specs_of(const Operation& operation) {
     void operator()(const CutOperation& cut) { specs.push_back(cut.pose); }
     void operator()(const DrillOperation& drill) { specs.push_back(drill.pose); }
     void operator()(const WeldOperation& weld) { specs.push_back(weld.pose); }
+    void operator()(const SutureOperation& suture) { specs.push_back(suture.pose); }
     void operator()(const DetachOperation& detached) { specs.push_back(detached.pose); }
     void operator()(const WeightsOperation& weights) {
       if (weights.weights.policy == WeightPolicy::pose_exact) specs.push_back(weights.pose);
@@ -51,6 +52,7 @@ PoseSpec last_pose_of(const Operation& operation) {
     PoseSpec operator()(const CutOperation& cut) const { return cut.pose; }
     PoseSpec operator()(const DrillOperation& drill) const { return drill.pose; }
     PoseSpec operator()(const WeldOperation& weld) const { return weld.pose; }
+    PoseSpec operator()(const SutureOperation& suture) const { return suture.pose; }
     PoseSpec operator()(const DetachOperation& detached) const { return detached.pose; }
     PoseSpec operator()(const WeightsOperation& weights) const { return weights.pose; }
     PoseSpec operator()(const UndoOperation&) const { return RestPose{}; }
@@ -109,6 +111,7 @@ std::vector<PointsOfOperation> points_of_history(const std::vector<Operation>& h
     void operator()(const DrillOperation& drill) { add(drill.bore.weights); }
     void operator()(const DetachOperation&) { points.push_back({}); }
     void operator()(const WeldOperation&) { points.push_back({}); }
+    void operator()(const SutureOperation&) { points.push_back({}); }
     void operator()(const WeightsOperation& operation) {
       const std::size_t first = std::min<std::size_t>(operation.first_operation, points.size());
       const std::size_t count =

@@ -160,17 +160,24 @@ struct Drawer {
     return near->point;
   }
   Vec3d operator()(const WeldOperation& operation) const {
-    if (operation.weld.places.empty()) return model.centre();
-    for (const Vec3d& place : operation.weld.places) {
-      marks.disc(place, kPlaceRadius + 1.5, 20, kEdge, Layer::on_top);
-      marks.disc(place, kPlaceRadius, 20, kTip, Layer::on_top);
-    }
-    return operation.weld.places.front();
+    return mark_places(operation.weld.places);
+  }
+  Vec3d operator()(const SutureOperation& operation) const {
+    return mark_places(operation.suture.places);
   }
   // Nothing of these is at a place.
   Vec3d operator()(const WeightsOperation&) const { return model.centre(); }
   Vec3d operator()(const UndoOperation&) const { return model.centre(); }
   Vec3d operator()(const RedoOperation&) const { return model.centre(); }
+
+ private:
+  [[nodiscard]] Vec3d mark_places(const std::vector<Vec3d>& places) const {
+    for (const Vec3d& place : places) {
+      marks.disc(place, kPlaceRadius + 1.5, 20, kEdge, Layer::on_top);
+      marks.disc(place, kPlaceRadius, 20, kTip, Layer::on_top);
+    }
+    return places.empty() ? model.centre() : places.front();
+  }
 };
 
 /// Whether an operation has a place that a picture can mark.
@@ -179,6 +186,8 @@ bool has_place(const Operation& operation) {
   if (detached != nullptr) return std::holds_alternative<PieceNear>(detached->piece);
   const auto* const weld = std::get_if<WeldOperation>(&operation);
   if (weld != nullptr) return !weld->weld.places.empty();
+  const auto* const suture = std::get_if<SutureOperation>(&operation);
+  if (suture != nullptr) return !suture->suture.places.empty();
   return !std::holds_alternative<WeightsOperation>(operation);
 }
 
@@ -207,6 +216,7 @@ struct Extremes {
     return near == nullptr ? std::vector<Vec3d>() : std::vector<Vec3d>{near->point};
   }
   std::vector<Vec3d> operator()(const WeldOperation& weld) const { return weld.weld.places; }
+  std::vector<Vec3d> operator()(const SutureOperation& sewn) const { return sewn.suture.places; }
   std::vector<Vec3d> operator()(const WeightsOperation&) const { return {}; }
   std::vector<Vec3d> operator()(const UndoOperation&) const { return {}; }
   std::vector<Vec3d> operator()(const RedoOperation&) const { return {}; }
@@ -247,6 +257,11 @@ std::vector<std::string> missing_from_picture(const std::vector<NumberedOperatio
     }
     if (std::holds_alternative<WeldOperation>(*logged.operation) && !has_place(*logged.operation)) {
       missing.push_back(name + " has no place: it closes all wounds");
+      continue;
+    }
+    if (std::holds_alternative<SutureOperation>(*logged.operation) &&
+        !has_place(*logged.operation)) {
+      missing.push_back(name + " has no place: it sews all wounds");
       continue;
     }
     if (!has_place(*logged.operation)) {

@@ -174,10 +174,10 @@ Result<TearRequest::Aimed> parse_aimed_option(const std::string& kind, const std
   return aimed;
 }
 
-Result<Operation> parse_weld_option(const std::string& text,
-                                    const std::optional<std::string>& pose) {
+Result<Operation> parse_closing_option(const std::string& kind, const std::string& text,
+                                       const std::optional<std::string>& pose) {
   const std::vector<std::string> fields = split(text, ',');
-  Json operation = {{"op", kOpName<WeldOperation>}};
+  Json operation = {{"op", kind}};
   if (fields.front() != "all") {
     const std::optional<Vec3d> place = direction_in(fields.front());
     if (!place)
@@ -187,14 +187,21 @@ Result<Operation> parse_weld_option(const std::string& text,
     operation["places"] = Json::array({{place->x(), place->y(), place->z()}});
   }
   for (std::size_t i = 1; i < fields.size(); ++i) {
-    const std::optional<double> reach =
-        fields[i].starts_with("reach=") ? number_in(fields[i].substr(6)) : std::nullopt;
-    if (!reach || !operation.contains("places"))
+    const std::size_t equals = fields[i].find('=');
+    const std::optional<double> value =
+        equals == std::string::npos ? std::nullopt : number_in(fields[i].substr(equals + 1));
+    if (!value)
       return Status::failure(StatusCode::malformed_file, kNone,
-                             "'%.60s' is no field; a place may be followed by reach=METRES",
-                             fields[i].c_str());
-    operation["reach"] = *reach;
+                             "'%.60s' is no field with a number, FIELD=VALUE", fields[i].c_str());
+    const std::string name = fields[i].substr(0, equals);
+    if (operation.contains(name))
+      return Status::failure(StatusCode::malformed_file, kNone, "'%.40s' is given twice",
+                             name.c_str());
+    operation[name] = *value;
   }
+  if (operation.contains("reach") && !operation.contains("places"))
+    return Status::failure(StatusCode::malformed_file, kNone,
+                           "reach needs a place x/y/z in place of all");
   if (pose) {
     Result<Json> posed = pose_json(*pose);
     if (!posed) return posed.error();

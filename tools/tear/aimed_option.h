@@ -19,9 +19,11 @@ namespace sunder::tools {
                                                             const std::string& text,
                                                             const std::optional<std::string>& pose);
 
-/// Reads a weld: "all", or "0.1/1.2/0,reach=0.05" for the wound nearest to a place, as far along it
-/// as that. @return as above.
-[[nodiscard]] Result<Operation> parse_weld_option(const std::string& text,
-                                                  const std::optional<std::string>& pose);
+/// Reads a weld or suture: "all", or "0.1/1.2/0" for the wound nearest to a place; then numbers of
+/// the operation's fields: "reach=0.05,spacing=0.01".
+/// @param kind  "weld" or "suture". @return as above.
+[[nodiscard]] Result<Operation> parse_closing_option(const std::string& kind,
+                                                     const std::string& text,
+                                                     const std::optional<std::string>& pose);
 
 }  // namespace sunder::tools

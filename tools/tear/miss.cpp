@@ -260,6 +260,10 @@ Result<std::string> cause_of_miss(const Operation& operation, const Miss& miss,
     return std::string(
         "no lips lie on one another; those of gaps and bores, and of a file that was torn before, "
         "cannot be welded");
+  if (std::holds_alternative<SutureOperation>(operation))
+    return std::string(
+        "no lips lie on one another; those of gaps and bores, and of a file that was torn before, "
+        "cannot be sewn");
   if (miss.bounds.is_empty()) return std::string("the model has no surface left");
   if (miss.distance == 0) return size_advice(operation, source);
   const Character& character = model.character();

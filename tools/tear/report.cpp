@@ -30,6 +30,7 @@ Names names_of(const Operation& operation) {
     Names operator()(const DrillOperation&) const { return {"drill", "drilled", true}; }
     Names operator()(const DetachOperation&) const { return {"detach", "detached", false}; }
     Names operator()(const WeldOperation&) const { return {"weld", "welded", true}; }
+    Names operator()(const SutureOperation&) const { return {"suture", "sewn", true}; }
     Names operator()(const WeightsOperation&) const { return {"weights", "weighed", false}; }
     Names operator()(const UndoOperation&) const { return {"undo", "undone", false}; }
     Names operator()(const RedoOperation&) const { return {"redo", "redone", false}; }
@@ -75,6 +76,7 @@ std::string digest_text(std::uint64_t digest) {
 
 Result<OperationOutcome> play(const Operation& operation, TornModel& model,
                               DetachedPieces* detached) {
+  const std::size_t threads_before = threads_of(model).size();
   const auto begin = std::chrono::steady_clock::now();
   Result<TearReport> report =
       detached != nullptr ? detached->apply(operation, model) : apply_operation(model, operation);
@@ -90,8 +92,11 @@ Result<OperationOutcome> play(const Operation& operation, TornModel& model,
     if (!description) return description.error();
     pieces.push_back(std::move(*description));
   }
-  return OperationOutcome{names.op,           names.done,      has_missed,
-                          std::move(*report), elapsed.count(), std::move(pieces)};
+  OperationOutcome outcome{names.op,           names.done,      has_missed,
+                           std::move(*report), elapsed.count(), std::move(pieces)};
+  if (std::holds_alternative<SutureOperation>(operation))
+    outcome.threads = threads_of(model).size() - threads_before;
+  return outcome;
 }
 
 Status measure_weight_error(const Operation& operation, const TornModel& model,
@@ -130,6 +135,7 @@ Json to_json(const OperationOutcome& outcome, const Character& character) {
                {"caps", tear.caps},
                {"open_sections", tear.open_sections},
                {"pieces", std::move(pieces)}};
+  if (outcome.threads > 0) json["threads"] = outcome.threads;
   if (!outcome.topology) return json;
   const TopologyCounts &before = outcome.topology->before, &after = outcome.topology->after;
   json["components"] = {{"before", before.components}, {"after", after.components}};

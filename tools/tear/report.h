@@ -25,6 +25,7 @@ struct OperationOutcome {
   TearReport tear;
   double seconds = 0;                         ///< Duration of the operation alone.
   std::vector<PieceDescription> pieces = {};  ///< Of TearReport::pieces.
+  std::size_t threads = 0;                    ///< Of a suture.
   /// Greatest distance of a new point from the untorn surface, in the poses of the operation;
   /// metres. Only if it was measured.
   std::optional<double> weight_error_max = {};

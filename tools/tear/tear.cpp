@@ -233,9 +233,9 @@ ExitCode read_operations(const TearRequest& request, const LoadedCharacter& load
   return ExitCode::ok;
 }
 
-void add_welds(const TearRequest& request, std::vector<WantedOperation>& wanted) {
-  for (const TearRequest::Welding& weld : request.welds)
-    wanted.push_back({weld.operation, weld.option, {}});
+void add_closings(const TearRequest& request, std::vector<WantedOperation>& wanted) {
+  for (const TearRequest::Closing& closing : request.closings)
+    wanted.push_back({closing.operation, closing.option, {}});
 }
 
 /// With --robot, adds the tear of its blade.
@@ -301,7 +301,7 @@ ExitCode run_tear(const TearRequest& request) {
                        *request.pieces, ending_of_pieces(request));
   run.has_findings = has_losses(loaded->report);
   if (const ExitCode code = add_robot_tear(run, operations); code != ExitCode::ok) return code;
-  add_welds(request, operations);
+  add_closings(request, operations);
   if (const ExitCode code = play_operations(operations, run, progress); code != ExitCode::ok)
     return code;
   progress.begin_step(operations.size() + 2, "writing");

@@ -66,6 +66,20 @@ namespace Sunder
       }
     }
 
+    /// <summary>Ties threads between lips that lie on one another. places: as for Weld(); the other fields: of suture.</summary>
+    public Command Suture(global::Sunder.Suture suture, Vector3d[] places = null, SubmitFlags flags = SubmitFlags.None)
+    {
+      Library.CheckNotEmpty(places, "places");
+      ulong id;
+      global::Sunder.Suture sewn = suture;
+      fixed (Vector3d* first = places)
+      {
+        sewn.Places = (double*)first;
+        sewn.PlaceCount = places == null ? 0 : (uint)places.Length;
+        return Submitted(NativeCalls.sunder_submit_suture(SceneNumber, Id, &sewn, (uint)flags, &id), id);
+      }
+    }
+
     /// <summary>Takes a connected piece off: Detachment.Default with a point, or a mesh and a triangle. bone: with a point, only
     /// triangles that this bone moves most.</summary>
     public Command Detach(Detachment detachment, string bone = null)

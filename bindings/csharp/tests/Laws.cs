@@ -64,6 +64,15 @@ namespace Sunder.Tests
       whole.Cut(cut, null, new[] { new Vector3d(0, 0.5, 0) });
       scene.Update(0);
       ulong severed = whole.Digest;
+      ulong unsewn = whole.Digest;
+      global::Sunder.Suture suture = global::Sunder.Suture.Default;
+      suture.Spacing = 0.1;
+      command = whole.Suture(suture);
+      scene.Update(0);
+      Expect.That(command.Result.Runs > 0 && whole.Digest != unsewn, "a suture");
+      whole.Undo();
+      scene.Update(0);
+      Expect.Equal(whole.Digest, unsewn, "undone");
       command = whole.Weld(new[] { new Vector3d(0, 0.5, 0) });
       scene.Update(0);
       Expect.That(command.Result.Runs > 0 && whole.Digest != severed, "a weld");

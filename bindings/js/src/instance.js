@@ -1,5 +1,5 @@
 // One character in a scene.
-import { SUNDER_IN_BACKGROUND, sunder_bore, sunder_collider, sunder_contact, sunder_cut, sunder_detach, sunder_force_tearing_options, sunder_layer_options, sunder_save_options, sunder_stroke_sampling, sunder_tear_options, sunder_weld, sunder_wound_mask_options } from '../generated/calls.js';
+import { SUNDER_IN_BACKGROUND, sunder_bore, sunder_collider, sunder_contact, sunder_cut, sunder_detach, sunder_force_tearing_options, sunder_layer_options, sunder_save_options, sunder_stroke_sampling, sunder_suture, sunder_tear_options, sunder_weld, sunder_wound_mask_options } from '../generated/calls.js';
 import { Hold, Layer, Stroke } from './handles_of_tissue.js';
 import { takeBytes, takeText } from './made_bytes.js';
 import { materialOf } from './materials.js';
@@ -77,6 +77,12 @@ export class Instance {
     const fields = fieldsOf(sunder_weld, options);
     if (places) Object.assign(fields, { places: flat(places, 'places'), place_count: places.length });
     return this.#submit('sunder_submit_weld', fields, flagsOf(background));
+  }
+  /** Ties threads between lips that lie on one another. @param options  { places, reach, spacing, stiffness, tension, strength } */
+  suture({ places, background = false, ...options } = {}) {
+    const fields = fieldsOf(sunder_suture, options);
+    if (places) Object.assign(fields, { places: flat(places, 'places'), place_count: places.length });
+    return this.#submit('sunder_submit_suture', fields, flagsOf(background));
   }
   /** Takes a connected piece off. @param piece  { mesh, triangle } or { point, bone }; its Result has the piece */
   detach({ bone, ...options }) {

@@ -87,6 +87,13 @@ test('a weld closes a wound, a bit of it or all, and can be undone', async () =>
   it.undo();
   scene.update(0);
   assert.equal(it.digest, open);
+  it.suture({ spacing: 0.05, strength: 10 });
+  assert.ok(scene.update(0)[0].runs > 0 && it.log.includes('"suture"') && it.digest !== open);
+  it.undo();
+  scene.update(0);
+  assert.equal(it.digest, open);
+  it.suture({ stiffness: 0 });
+  assert.match(scene.update(0)[0].error.message, /stiffness is 0 N\/m/);
   assert.throws(() => it.weld({ places: [] }), { code: 'invalid_argument' });
   it.weld({ places: [[0, NaN, 0]] });
   assert.equal(scene.update(0)[0].error.code, 'non_finite_value');

@@ -172,6 +172,14 @@ export interface WeldOptions {
   /** How far from these places along the wound, metres; 0: to its ends. */
   reach?: number; background?: boolean;
 }
+export interface SutureOptions extends WeldOptions {
+  /** Between threads along the wound, metres. */
+  spacing?: number;
+  /** Of a thread, newtons per metre. */
+  stiffness?: number;
+  /** Newtons: with which a thread was tied, and at which it breaks; 0: it never does. */
+  tension?: number; strength?: number;
+}
 export interface DetachOptions {
   mesh?: number; triangle?: number; point?: Vector3Like; bone?: string;
   motion?: 'frozen' | 'animated' | 'vanishes'; axes?: 'principal' | 'model'; openSurfaces?: 'fans' | 'shell';
@@ -272,6 +280,7 @@ export class Instance {
   cut(plane: CutOptions): Command;
   drill(bore: BoreOptions): Command;
   weld(options?: WeldOptions): Command;
+  suture(options?: SutureOptions): Command;
   detach(piece: DetachOptions): Command;
   undo(): Command;
   redo(): Command;

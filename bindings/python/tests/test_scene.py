@@ -77,6 +77,15 @@ def test_a_weld_closes_a_wound(tube):
         bad.result
     with pytest.raises(ValueError):
         instance.weld(np.zeros((0, 3)))
+    sewn = instance.suture(spacing=0.05, strength=10)
+    scene.update()
+    assert sewn.result.runs > 0 and '"suture"' in instance.log and instance.digest != open_digest
+    instance.undo()
+    bad = instance.suture(spacing=-1)
+    scene.update()
+    with pytest.raises(sunder_tear.SunderError, match='spacing is -1 m'):
+        bad.result
+    assert instance.digest == open_digest
     welded = instance.weld()
     scene.update()
     assert welded.result.runs > 0 and welded.result.blocked == 0

@@ -150,6 +150,27 @@ void describe(V& v, Is<WeldOperation> auto& of) {
 }
 
 template <class V>
+void describe(V& v, Is<Suture> auto& of) {
+  v({"places", "At least one place. Only the wound nearest to each of them is sewn", Use::if_set,
+     "all wounds"},
+    of.places, List{"points", 1, "places need at least one; without them all wounds are sewn"});
+  v({"reach", "How far from those places along the wound. 0: to its ends.", Use::if_set}, of.reach,
+    field::length_from_zero());
+  v({"spacing", "Distance between threads along the wound, above 0."}, of.spacing,
+    field::length_above_zero());
+  v({"stiffness", "Of a thread, newtons per metre, above 0."}, of.stiffness, field::kStiffness);
+  v({"tension", "With which a thread was tied, newtons.", Use::if_set}, of.tension,
+    field::kNewtons);
+  v({"strength", "Newtons at which a thread breaks. 0: it never does.", Use::if_set}, of.strength,
+    field::kNewtons);
+}
+template <class V>
+void describe(V& v, Is<SutureOperation> auto& of) {
+  v({"pose", "The pose in which places and lengths are measured."}, of.pose);
+  describe(v, of.suture);
+}
+
+template <class V>
 void describe(V& v, Is<WeightsOperation> auto& of) {
   v({"first", "Index of the first operation, counted from 0 over those not undone."},
     of.first_operation, Integer{"an operation's index"});

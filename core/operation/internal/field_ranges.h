@@ -35,6 +35,11 @@ constexpr NumberRange named(NumberRange range, const char* field) {
   return range;
 }
 
+// Of threads.
+inline constexpr NumberRange kStiffness = {
+    .field = "stiffness", .least = 0, .most = 1e12, .unit = " N/m", .is_above_least = true};
+inline constexpr NumberRange kNewtons = {
+    .field = "newtons", .least = 0, .most = 1e12, .unit = " N"};
 inline constexpr NumberRange kCoordinate = {
     .field = "coordinate", .least = -kFarthestMetres, .most = kFarthestMetres};
 // Of strokes that are sampled from a hand.

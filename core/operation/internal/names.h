@@ -47,6 +47,8 @@ inline constexpr const char* kOpName<DetachOperation> = "detach";
 template <>
 inline constexpr const char* kOpName<WeldOperation> = "weld";
 template <>
+inline constexpr const char* kOpName<SutureOperation> = "suture";
+template <>
 inline constexpr const char* kOpName<WeightsOperation> = "weights";
 template <>
 inline constexpr const char* kOpName<UndoOperation> = "undo";

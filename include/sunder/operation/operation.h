@@ -105,6 +105,25 @@ struct Weld {
   bool operator==(const Weld&) const = default;
 };
 
+/// Threads that hold wounds together, in model space: a thread joins two surface points, one of
+/// either lip, that lie on one another in bind space, and pulls them together. It changes no
+/// surface; tissue that moves feels it (SoftBody).
+struct Suture {
+  /// Places in model space. If not empty, only the wound nearest to each of them is sewn.
+  std::vector<Vec3d> places;
+  /// How far from those places along the wound, posed metres. 0: to its ends.
+  double reach = 0.0;
+  /// Distance between threads along the wound, posed metres, > 0. Where the points of the lips are
+  /// farther apart, so are the threads.
+  double spacing = 0.01;
+  double stiffness = 1e4;  ///< Of a thread, newtons per metre, > 0.
+  /// With which a thread was tied, newtons, >= 0: a weaker pull does not part its lips.
+  double tension = 0.0;
+  double strength = 0.0;  ///< Newtons at which a thread breaks; 0: it never does.
+
+  bool operator==(const Suture&) const = default;
+};
+
 /// A tear, `{"op": "tear"}` in a log.
 struct TearOperation {
   /// The pose changes to `pose` at blade `blade`: the segment that ends with that blade is torn in
@@ -162,6 +181,12 @@ struct WeldOperation {
   Weld weld;
 };
 
+/// Sews wounds, `{"op": "suture"}` in a log.
+struct SutureOperation {
+  PoseSpec pose;
+  Suture suture;
+};
+
 /// Assigns new weights to points that earlier operations created, `{"op": "weights"}` in a log.
 struct WeightsOperation {
   std::uint32_t first_operation = 0;      ///< Counted from the oldest one that is not undone.
@@ -181,7 +206,8 @@ struct RedoOperation {
   std::uint32_t count = 1;
 };
 
-using Operation = std::variant<TearOperation, CutOperation, DrillOperation, WeightsOperation,
-                               UndoOperation, RedoOperation, DetachOperation, WeldOperation>;
+using Operation =
+    std::variant<TearOperation, CutOperation, DrillOperation, WeightsOperation, UndoOperation,
+                 RedoOperation, DetachOperation, WeldOperation, SutureOperation>;
 
 }  // namespace sunder

@@ -76,7 +76,7 @@ class SUNDER_API CharacterInstance {
   /// As TornModel::pack(): for an instance that will not be torn for a while. A Scene does it.
   Status pack();
 
-  // ---- Operations: each is the call of TornModel of its name, documented there. The particles
+  // ---- Operations: each is the call of or on TornModel of its name, documented there. The particles
   // follow at once; the next draw() shows the effect. All return what TornModel returns; also
   // limit_exceeded if the particles cannot follow without enough memory, after which only a new
   // instance helps.
@@ -87,6 +87,8 @@ class SUNDER_API CharacterInstance {
                          ChangeRecord* change = nullptr);
   Result<TearReport> drill(const ModelPose& pose, const Bore& bore, ChangeRecord* change = nullptr);
   Result<TearReport> weld(const ModelPose& pose, const Weld& weld, ChangeRecord* change = nullptr);
+  Result<TearReport> suture(const ModelPose& pose, const Suture& suture,
+                            ChangeRecord* change = nullptr);
   /// @param tissue  optional; written, empty without a soft body: how the piece moves.
   Result<DetachedPiece> detach(const ModelPose& pose, const PiecePlace& place,
                                const DetachOptions& options = {}, ChangeRecord* change = nullptr,

@@ -52,10 +52,11 @@ struct UndoCommand {};
 struct RedoCommand {};
 
 /// An operation on an instance. A PlaneCut cuts, a Bore drills, a Weld closes wounds, a
-/// WeightsOperation assigns new weights to torn vertices.
+/// Suture sews them, a WeightsOperation assigns new weights to torn vertices.
 using SceneCommand = std::variant<TearCommand, PlaneCut, Bore, BeginStrokeCommand,
                                   ExtendStrokeCommand, EndStrokeCommand, CancelStrokeCommand,
-                                  DetachCommand, UndoCommand, RedoCommand, WeightsOperation, Weld>;
+                                  DetachCommand, UndoCommand, RedoCommand, WeightsOperation, Weld,
+                                  Suture>;
 
 /// How the tissue of a piece moved when it was detached.
 struct PieceTissue {

@@ -98,6 +98,16 @@ struct WeldedPoint {
   bool operator==(const WeldedPoint&) const = default;
 };
 
+/// A thread of a suture. It may have broken: thread_loads() tells.
+struct SutureThread {
+  /// Surface points. A later weld or detachment may have left one of them without faces: then the
+  /// thread holds nothing.
+  std::uint32_t left = 0, right = 0;
+  double stiffness = 0, tension = 0, strength = 0;  ///< As in Suture.
+
+  bool operator==(const SutureThread&) const = default;
+};
+
 /// The changes by one call, for engine buffers, particles, bounds and other mirrors of the model.
 struct ChangeRecord {
   std::uint32_t first_point = 0, point_count = 0;  ///< Surface points appended.

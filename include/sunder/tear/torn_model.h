@@ -45,6 +45,10 @@ SUNDER_API Result<DetachedPiece> detach(TornModel& model, const ModelPose& pose,
                                         const PiecePlace& place, const DetachOptions& options,
                                         ChangeRecord* change);
 
+// A friend of TornModel, documented below.
+SUNDER_API Result<TearReport> suture(TornModel& model, const ModelPose& pose, const Suture& suture,
+                                     ChangeRecord* change = nullptr);
+
 /// A character that can be torn: the source, the torn meshes, and the topology of their surface.
 /// Use a model on one thread at a time; different models are independent. Accessors return
 /// references that are valid until the next call that changes the model.
@@ -218,6 +222,7 @@ class SUNDER_API TornModel {
   friend Result<ParentBlends> parent_blends(const TornModel&, std::uint32_t);
   friend Result<DetachedPiece> detach(TornModel&, const ModelPose&, const PiecePlace&,
                                       const DetachOptions&, ChangeRecord*);
+  friend Result<TearReport> suture(TornModel&, const ModelPose&, const Suture&, ChangeRecord*);
   struct State;
   struct Instance;
   /// Points to the state in the workspace. A packed model is unpacked first.
@@ -249,6 +254,27 @@ inline constexpr const char* kScarAttribute = "_SCAR";
 /// O(vertices + triangles)
 /// @param character  with the vertices and triangles of model.character(), such as a copy of it.
 SUNDER_API void mark_scars(const TornModel& model, Character& character);
+
+/// Sews wounds: ties threads between points of lips that lie on one another in bind space, evenly
+/// along each wound. The surface stays as it is; SoftBody pulls the lips together.
+/// @return as TornModel::tear(); runs: the wounds that were sewn, 0 if there was nothing to sew;
+///         threads_of() has their threads. O(triangles that operations changed), and O(lips) for each place;
+///         allocates.
+SUNDER_API Result<TearReport> suture(TornModel& model, const ModelPose& pose, const Suture& suture,
+                                     ChangeRecord* change);
+
+/// All threads, in the order in which they were tied. Valid until the next change of the model;
+/// empty without sutures.
+SUNDER_API std::span<const SutureThread> threads_of(const TornModel& model);
+
+/// A vertex of a mesh; kNone: none.
+struct MeshVertex {
+  std::uint32_t mesh = kNone, vertex = kNone;
+};
+
+/// One of the vertices at a surface point, such as the end of a thread; none if the point has no
+/// face any more. The index is unchecked. O(1)
+SUNDER_API MeshVertex vertex_at(const TornModel& model, std::uint32_t point);
 
 /// Applies one operation to a model; poses are looked up in the model's skeleton and clips.
 ///

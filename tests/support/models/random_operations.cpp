@@ -103,6 +103,17 @@ WeldOperation random_weld(const TornModel& model, Random& random) {
   return operation;
 }
 
+SutureOperation random_suture(const TornModel& model, Random& random) {
+  const WeldOperation like = random_weld(model, random);
+  const double diagonal = posed_diagonal(model.source(), std::get<ModelPose>(like.pose));
+  SutureOperation operation{like.pose, {like.weld.places, like.weld.reach}};
+  operation.suture.spacing = random.uniform(0.005, 0.1) * diagonal;
+  operation.suture.stiffness = std::pow(10, random.uniform(-3, 6));
+  if (random.index(2) == 0) operation.suture.tension = std::pow(10, random.uniform(-3, 3));
+  if (random.index(2) == 0) operation.suture.strength = std::pow(10, random.uniform(-4, 3));
+  return operation;
+}
+
 Stroke turning_stroke(Random& random) {
   Stroke stroke;
   double x = 0.15, y = 0.5, heading = random.uniform(-0.3, 0.3);
@@ -126,6 +137,8 @@ Result<TearReport> play(TornModel& model, const Operation& operation, ChangeReco
     return model.drill(std::get<ModelPose>(drill->pose), drill->bore, change);
   if (const auto* weld = std::get_if<WeldOperation>(&operation))
     return model.weld(std::get<ModelPose>(weld->pose), weld->weld, change);
+  if (const auto* sewn = std::get_if<SutureOperation>(&operation))
+    return suture(model, std::get<ModelPose>(sewn->pose), sewn->suture, change);
   std::abort();
 }
 

@@ -22,6 +22,8 @@ Operation random_lossless_operation(const TornModel& model, Random& random, bool
 
 /// A weld of all wounds, or of the one near a place of the surface, to its ends or a part of it.
 WeldOperation random_weld(const TornModel& model, Random& random);
+/// Threads for the wounds that random_weld() would close.
+SutureOperation random_suture(const TornModel& model, Random& random);
 
 /// Blades that go down through the sheet of make_sheet(), along a path that turns at random and
 /// stays on the sheet.

@@ -36,6 +36,26 @@ GapProfile gap_between(const SlitSheet& sheet, const std::vector<Vec3d>& displac
   return gap;
 }
 
+/// The threads of a slit, each of which grips lips within a distance, most in its middle.
+std::vector<GrippingThread> gripping_threads(const SlitSheet& sheet, double grip) {
+  std::vector<GrippingThread> threads;
+  const std::span<const Vec3f> at = sheet.set->positions();
+  for (const SutureThread& of : threads_of(*sheet.model)) {
+    GrippingThread& thread = threads.emplace_back(GrippingThread{of.stiffness, {}});
+    double sum = 0;
+    for (const LipPair& lip : sheet.lips) {
+      const double away = double{std::abs(at[lip.left].x() - at[of.left].x())};
+      const double weight = lip.left == of.left || lip.left == of.right ? 1.0 : 1 - away / grip;
+      if (!(weight > 0)) continue;
+      sum += weight;
+      thread.points.push_back({lip.left, weight});
+      thread.points.push_back({lip.right, -weight});
+    }
+    for (auto& [point, weight] : thread.points) weight /= sum;
+  }
+  return threads;
+}
+
 /// The width at a place: its square is linear between those that are known, as it is next to tips.
 double width_at(const GapProfile& gap, double x) {
   const auto after = std::lower_bound(gap.x.begin(), gap.x.end(), x);
@@ -52,7 +72,8 @@ double width_at(const GapProfile& gap, double x) {
 
 std::vector<Vec3d> solve_membrane(const TornModel& model, std::span<const Vec3f> positions,
                                   const SoftMaterial& material, std::span<const Vec3d> forces,
-                                  const FactorsOfPlace& factors) {
+                                  const FactorsOfPlace& factors,
+                                  std::span<const GrippingThread> threads) {
   const tear::Surface& surface = model.surface();
   const auto count = static_cast<Eigen::Index>(positions.size());
   std::vector<Eigen::Triplet<double>> entries;
@@ -87,6 +108,10 @@ std::vector<Vec3d> solve_membrane(const TornModel& model, std::span<const Vec3f>
   }
   for (std::uint32_t p = 0; p < positions.size(); ++p)
     if (!has_face[p]) entries.emplace_back(p, p, 1.0);
+  for (const GrippingThread& thread : threads)
+    for (const auto& [row, of_row] : thread.points)
+      for (const auto& [column, of_column] : thread.points)
+        entries.emplace_back(row, column, thread.stiffness * of_row * of_column);
   Eigen::SparseMatrix<double> matrix(count, count);
   matrix.setFromTriplets(entries.begin(), entries.end());
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(matrix);
@@ -172,6 +197,12 @@ SlitSheet::SlitSheet(std::uint32_t cells, double half, double range, const SoftM
   while (set->settle(*model, 100000)) continue;
 }
 
+void SlitSheet::sew(const Suture& suture) {
+  ChangeRecord change;
+  (void)checked(sunder::suture(*model, pose, suture, &change));
+  check(set->follow(*model, {&change, 1}));
+}
+
 void pull_open(SoftBody& body, const TornModel& model, const ModelPose& pose,
                double newtons_per_metre) {
   check(body.set_tension({newtons_per_metre, {}}));
@@ -189,11 +220,22 @@ GapProfile gap_of(const SlitSheet& sheet) {
   return gap_between(sheet, displacements);
 }
 
-GapProfile reference_gap(const SlitSheet& sheet, double newtons_per_metre) {
+GapProfile reference_gap(const SlitSheet& sheet, double newtons_per_metre, double grip) {
   return gap_between(
-      sheet,
-      solve_membrane(*sheet.model, sheet.set->positions(), sheet.body->materials()[0],
-                     lip_forces(*sheet.set, newtons_per_metre, sheet.factors), sheet.factors));
+      sheet, solve_membrane(*sheet.model, sheet.set->positions(), sheet.body->materials()[0],
+                            lip_forces(*sheet.set, newtons_per_metre, sheet.factors), sheet.factors,
+                            gripping_threads(sheet, grip)));
+}
+
+double widest_between_threads(const SlitSheet& sheet, const GapProfile& gap) {
+  std::vector<double> at;
+  for (const SutureThread& thread : threads_of(*sheet.model))
+    at.push_back(double{sheet.set->positions()[thread.left].x()} - 0.5);
+  const auto [first, last] = std::minmax_element(at.begin(), at.end());
+  double widest = 0;
+  for (std::size_t i = 0; i < gap.x.size(); ++i)
+    if (gap.x[i] > *first && gap.x[i] < *last) widest = std::max(widest, gap.width[i]);
+  return widest;
 }
 
 double rms_difference(const GapProfile& found, const GapProfile& wanted) {

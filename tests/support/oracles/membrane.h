@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace sunder::test {
@@ -22,6 +23,12 @@ AuthoredTissue authored(const Character& character, const FactorsOfPlace& factor
 /// position, in its bind pose. O(triangles).
 TissuePlace place_on_sheet(const Character& character, const Vec3d& position);
 
+/// A spring that pulls a weighted sum of displacements to zero.
+struct GrippingThread {
+  double stiffness = 0;                                  ///< Newtons per metre.
+  std::vector<std::pair<std::uint32_t, double>> points;  ///< With their weights.
+};
+
 /// The displacement of every point of a torn surface in balance: a membrane on an elastic
 /// foundation, by finite elements with one unknown per point, linear on each face (cotangent
 /// weights), and a sparse Cholesky factorisation. Walls and caps are no part of it. Independent of
@@ -31,10 +38,12 @@ TissuePlace place_on_sheet(const Character& character, const Vec3d& position);
 /// @param material   its membrane_stiffness, areal_density and return_frequency count.
 /// @param forces     per point, newtons.
 /// @param factors    of the material, taken at the centroid of each face; empty: all 1.
+/// @param threads    springs between sums of points.
 /// @return metres; 0 at points without a face.
 std::vector<Vec3d> solve_membrane(const TornModel& model, std::span<const Vec3f> positions,
                                   const SoftMaterial& material, std::span<const Vec3d> forces,
-                                  const FactorsOfPlace& factors = {});
+                                  const FactorsOfPlace& factors = {},
+                                  std::span<const GrippingThread> threads = {});
 
 /// The forces of a tension at lips: half of each edge's at each of its ends.
 /// @param factors  taken at the middle of each edge; empty: all 1.
@@ -66,6 +75,7 @@ struct SlitSheet {
             double size = 1, std::uint64_t seed_order = 0, FactorsOfPlace factors = {});
 
   void open(double newtons_per_metre) { pull_open(*body, *model, pose, newtons_per_metre); }
+  void sew(const Suture& suture);
 };
 
 /// The distance of the lips along a slit, in the order of x.
@@ -76,9 +86,14 @@ struct GapProfile {
   [[nodiscard]] double widest() const;
 };
 
-/// The gap by the particles, and that of the reference under the same tension.
+/// The gap by the particles, and that of the reference under the same tension and with threads of
+/// the same stiffness. Each of these grips the lips within a distance, most in its middle: a thread
+/// that grips a point holds less and less as elements become finer.
 GapProfile gap_of(const SlitSheet& sheet);
-GapProfile reference_gap(const SlitSheet& sheet, double newtons_per_metre);
+GapProfile reference_gap(const SlitSheet& sheet, double newtons_per_metre, double grip = 0);
+
+/// The widest gap between the outermost threads.
+double widest_between_threads(const SlitSheet& sheet, const GapProfile& gap);
 
 /// Root of the mean squared difference along the slit, relative to the widest gap of the second.
 double rms_difference(const GapProfile& found, const GapProfile& wanted);

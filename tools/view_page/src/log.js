@@ -43,7 +43,7 @@ export function poseText(spec = 'rest') {
 export const isPlaced = ({ op }) => !['weights', 'undo', 'redo'].includes(op);
 
 const NAMES = { tear: 'Tear', cut: 'Cut', drill: 'Bore', slash: 'Slash', sever: 'Sever',
-  puncture: 'Puncture', incision: 'Incision', detach: 'Detach', weld: 'Weld', weights: 'Weights', undo: 'Undo', redo: 'Redo' };
+  puncture: 'Puncture', incision: 'Incision', detach: 'Detach', weld: 'Weld', suture: 'Suture', weights: 'Weights', undo: 'Undo', redo: 'Redo' };
 
 /** "Tear", "3 blades · 0.40 s of Walk" */
 export function describe(operation) {
@@ -58,7 +58,7 @@ export function describe(operation) {
   const bone = operation.around ?? (operation.op === 'sever' ? operation.bone : undefined);
   if (bone !== undefined) facts.push(operation.at === undefined ? bone : `${bone} at ${operation.at}`);
   if (operation.op === 'incision') facts.push(`${operation.points.length} places`);
-  if (operation.op === 'weld') facts.push(operation.places ? `${operation.places.length} places` : 'all wounds');
+  if (operation.op === 'weld' || operation.op === 'suture') facts.push(operation.places ? `${operation.places.length} places` : 'all wounds');
   if (operation.op === 'weights') facts.push(operation.weights.policy ?? 'barycentric');
   if (operation.count > 1) facts.push(`${operation.count}`);
   if (isPlaced(operation)) facts.push(poseText(operation.pose));

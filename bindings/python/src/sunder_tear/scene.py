@@ -291,13 +291,22 @@ class Instance:
     def weld(self, places=None, reach: float = 0.0, *, in_background: bool = False) -> Command:
         """Closes wounds whose lips lie on one another: those of tears without width and of cuts. places: only the wound nearest
         to each of them, (n, 3), and no farther along it than `reach`; 0: to its ends."""
-        raw = abi.new('weld', reach=reach)
+        return self._close('weld', abi.new('weld', reach=reach), places, in_background)
+
+    def suture(self, places=None, reach: float = 0.0, *, spacing: float = 0.01, stiffness: float = 1e4, tension: float = 0.0,
+               strength: float = 0.0, in_background: bool = False) -> Command:
+        """Ties threads between lips that lie on one another. places, reach: as for weld(). spacing: metres along the wound;
+        stiffness: N/m; tension: newtons with which a thread was tied; strength: at which it breaks, 0: never."""
+        raw = abi.new('suture', reach=reach, spacing=spacing, stiffness=stiffness, tension=tension, strength=strength)
+        return self._close('suture', raw, places, in_background)
+
+    def _close(self, name, raw, places, in_background) -> Command:
         if places is not None:
             kept = doubles(places, -1, 3)
             if len(kept) == 0:
-                raise ValueError('places are empty; None closes all wounds')
+                raise ValueError('places are empty; None means all wounds')
             raw.places, raw.place_count = pointer_to(kept), len(kept)
-        return self._submit('weld', ctypes.byref(raw), int(in_background))
+        return self._submit(name, ctypes.byref(raw), int(in_background))
 
     def detach(self, point, *, bone: Optional[str] = None, motion: str = 'frozen', density: float = 1000.0, **options) -> Command:
         """Takes off the connected piece nearest to a place; `result.piece` has its mass, inertia and meshes. bone: only triangles
