@@ -32,6 +32,7 @@ struct SceneObject : Object {
   std::vector<sunder_result> results;
   std::vector<sunder_instance> drawn;
   MeshView mesh_view;
+  std::vector<float> texels;
 };
 
 [[nodiscard]] sunder_instance handle_of(const InstanceId& id);
