@@ -935,6 +935,8 @@ typedef struct sunder_wound_mask_options {
   uint32_t dilation; /* texels beyond the border of a chart, 1 to 64 */
   uint32_t reserved;
   double reach; /* metres along the surface; texels farther from a lip have this distance */
+  uint32_t first_operation; /* whose lips and removed skin count, as the log numbers them */
+  uint32_t operation_count; /* SUNDER_NONE: all further */
 } sunder_wound_mask_options;
 
 /* distances: width * height numbers, row by row from the top: metres along the surface from the
@@ -965,6 +967,39 @@ SUNDER_C_API sunder_status sunder_begin_wound_mask(sunder_scene scene, sunder_in
  * SUNDER_NOT_FOUND without sunder_begin_wound_mask(). */
 SUNDER_C_API sunder_status sunder_get_wound_mask(sunder_scene scene, sunder_instance instance,
                                                  uint32_t mesh, sunder_wound_mask* mask);
+/* What sunder_get_wound_channel() tells of each texel. */
+enum {
+  SUNDER_WOUND_AGE = 0, /* operations since the one that made the nearest lip; -1: none in reach */
+  SUNDER_WOUND_DEPTH = 1,  /* of the wall below the nearest lip, metres in bind space; 0: none */
+  SUNDER_WOUND_STRETCH = 2 /* largest principal stretch of the skin that was drawn, within reach */
+};
+/* A number per texel of the mask, ordered as its distances. A view, valid until the next call of
+ * this function or of sunder_flow_blood() for the scene. O(texels). Fails: SUNDER_NOT_FOUND without
+ * sunder_begin_wound_mask(); SUNDER_SIZE_MISMATCH for the stretch of an instance that was not
+ * updated since it was torn, or poses no vertices; SUNDER_LIMIT_EXCEEDED. */
+SUNDER_C_API sunder_status sunder_get_wound_channel(sunder_scene scene, sunder_instance instance,
+                                                    uint32_t mesh, uint32_t channel,
+                                                    const float** texels, uint32_t* texel_count);
+
+/* Rivulets of blood that run down from lips. */
+typedef struct sunder_blood_flow_options {
+  uint32_t struct_size;
+  uint32_t reserved;
+  double down[3]; /* in model space; any length but 0 */
+  double length;  /* of the longest one along the surface in bind space, metres */
+  double width;   /* of the widest one where it begins, metres */
+  double spacing; /* along lips from one to the next, on the mean; metres */
+  uint64_t seed;  /* chooses where they begin and how they wander */
+} sunder_blood_flow_options;
+
+SUNDER_C_API sunder_blood_flow_options sunder_default_blood_flow_options(void);
+/* Lets blood run from the lips over the surface in the pose of the last update, once: how much of
+ * it is on each texel of the mask, 0 to 1. A view, as that of sunder_get_wound_channel(). Fails:
+ * SUNDER_NOT_FOUND; SUNDER_INVALID_ARGUMENT; SUNDER_SIZE_MISMATCH before the first update. */
+SUNDER_C_API sunder_status sunder_flow_blood(sunder_scene scene, sunder_instance instance,
+                                             uint32_t mesh,
+                                             const sunder_blood_flow_options* options,
+                                             const float** texels, uint32_t* texel_count);
 /* Drops it, if there is one. */
 SUNDER_C_API sunder_status sunder_end_wound_mask(sunder_scene scene, sunder_instance instance,
                                                  uint32_t mesh);

@@ -276,6 +276,13 @@ Result<CharacterInstance::PaintedWounds> CharacterInstance::wound_mask(std::uint
   return PaintedWounds{taken->mask, taken->changed};
 }
 
+Result<const WoundMask*> CharacterInstance::peek_wound_mask(std::uint32_t mesh) {
+  const MemoryScope scope(state_->memory);
+  if (!state_->torn || !state_->wound_masks)
+    return Status::failure(StatusCode::not_found, mesh, "mesh %u has no wound mask", mesh);
+  return state_->wound_masks->peek(state_->torn->model, mesh);
+}
+
 Result<CompactMaps> CharacterInstance::compact() {
   const MemoryScope scope(state_->memory);
   State& state = *state_;

@@ -44,7 +44,7 @@ void WoundMasks::follow(const TornModel& model, std::span<const ChangeRecord> ch
     }
 }
 
-Result<WoundMasks::Taken> WoundMasks::take(const TornModel& model, Index mesh) {
+Result<WoundMasks::OfMesh*> WoundMasks::find(const TornModel& model, Index mesh) {
   const auto found = masks_.find(mesh);
   if (found == masks_.end())
     return Status::failure(StatusCode::not_found, mesh, "mesh %u has no wound mask", mesh);
@@ -54,7 +54,19 @@ Result<WoundMasks::Taken> WoundMasks::take(const TornModel& model, Index mesh) {
     if (!made) return made.error();
     of = {std::move(*made), whole(of.mask)};
   }
-  return Taken{&of.mask, std::exchange(of.changed, {})};
+  return &of;
+}
+
+Result<WoundMasks::Taken> WoundMasks::take(const TornModel& model, Index mesh) {
+  const Result<OfMesh*> of = find(model, mesh);
+  if (!of) return of.error();
+  return Taken{&(*of)->mask, std::exchange((*of)->changed, {})};
+}
+
+Result<const WoundMask*> WoundMasks::peek(const TornModel& model, Index mesh) {
+  const Result<OfMesh*> of = find(model, mesh);
+  if (!of) return of.error();
+  return &(*of)->mask;
 }
 
 }  // namespace sunder::scene

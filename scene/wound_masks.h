@@ -23,6 +23,8 @@ class WoundMasks {
   void follow(const TornModel& model, std::span<const ChangeRecord> changes) noexcept;
   /// @return not_found: the mesh has none; limit_exceeded: out of memory.
   Result<Taken> take(const TornModel& model, Index mesh);
+  /// The mask alone; what changed is kept. @return as take().
+  Result<const WoundMask*> peek(const TornModel& model, Index mesh);
 
  private:
   struct OfMesh {
@@ -30,6 +32,7 @@ class WoundMasks {
     TexelRectangle changed;
     bool is_stale = false;
   };
+  Result<OfMesh*> find(const TornModel& model, Index mesh);
   std::map<Index, OfMesh> masks_;
 };
 

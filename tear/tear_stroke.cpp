@@ -158,7 +158,7 @@ Result<TearStroke> TearStroke::create(TornModel& model, const ModelPose& pose, c
         recorded(options.weights.value_or(of_model.weights), of_model.weights);
     of_model.stroke.begin(blade, options);
     auto state = std::unique_ptr<State>(new State{&of_model, sampling, entry, operation});
-    state->begin = of_model.begin_operation(options.wall_depth > 0);
+    entry.begin = state->begin = of_model.begin_operation(options.wall_depth > 0);
     state->first_in_pose = state->begin.points;
     of_model.has_stroke = true;
     return TearStroke(std::move(state));

@@ -33,6 +33,7 @@ struct SceneObject : Object {
   std::vector<sunder_instance> drawn;
   std::vector<sunder_thread> threads;
   MeshView mesh_view;
+  std::vector<float> texels;
 };
 
 [[nodiscard]] sunder_instance handle_of(const InstanceId& id);

@@ -57,6 +57,21 @@ class EditLog {
   [[nodiscard]] TriangleChange describe(Index triangle) const;
   /// The twin of a half-edge before any operation changed its triangle. O(operations that did).
   [[nodiscard]] Index first_twin(Index half_edge) const;
+  /// A triangle as it was at an earlier time; null: as it is now. O(operations that changed it).
+  [[nodiscard]] const TriangleChange* former(Index triangle, const Extent& at) const {
+    const TriangleChange* result = nullptr;
+    for (Index i = columns_.newest_change[triangle]; i != kNone && i >= at.triangle_changes;
+         i = result->previous)
+      result = &columns_.triangle_changes[i];
+    return result;
+  }
+  /// Calls visit(index) for the changes of a triangle, as Extent counts them, the newest first.
+  template <class Visit>
+  void for_each_change_of(Index triangle, Visit visit) const {
+    for (Index i = columns_.newest_change[triangle]; i != kNone;
+         i = columns_.triangle_changes[i].previous)
+      visit(i);
+  }
   /// Calls visit(triangle) for each triangle of the source that is not as it was loaded, and for
   /// each appended one.
   template <class Visit>

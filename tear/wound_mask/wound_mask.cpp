@@ -1,19 +1,12 @@
 #include <sunder/skinning/deform.h>
 #include <sunder/tear/wound_mask.h>
 
-#include <algorithm>
 #include <cmath>
-#include <unordered_map>
 #include <utility>
-#include <vector>
 
 #include "core/internal/out_of_memory.h"
-#include "tear/model/model_access.h"
-#include "tear/wound_mask/beams_of_faces.h"
+#include "tear/wound_mask/mask_state.h"
 #include "tear/wound_mask/rivulets.h"
-#include "tear/wound_mask/spread.h"
-#include "tear/wound_mask/texels.h"
-#include "tear/wound_mask/torn_parts.h"
 
 namespace sunder {
 namespace {
@@ -92,49 +85,16 @@ void sort_and_unite(std::vector<Index>& values) {
 
 }  // namespace
 
-struct WoundMask::State {
-  State(const TornModel& model, std::uint32_t of_mesh, const WoundMaskOptions& wanted)
-      : options(wanted),
-        mesh(of_mesh),
-        faces(model.source()),
-        texels(model.source(), mesh, faces, options),
-        finder(faces.surface),
-        spread(faces, options.reach),
-        beams(static_cast<Index>(faces.shapes.size())),
-        distances(options.uv_set == kNone ? 0 : std::size_t{options.width} * options.height,
-                  static_cast<float>(options.reach)) {}
-
-  /// Finds the lips of source triangles, ascending, again.
-  /// @param seen  what sees lips that came or went is appended.
-  void renew(std::span<const Index> origins, const TornModel& model, std::vector<Index>& seen);
-  void paint(Index face, Bounds& bounds);
-  [[nodiscard]] Result<TexelRectangle> update(const TornModel& model, const ChangeRecord& change);
-  [[nodiscard]] bool has_triangles_of(const Character& other) const;
-  [[nodiscard]] double distance_at(Index face, const std::array<double, 3>& place) const;
-  [[nodiscard]] std::vector<float> flow(const Character& source,
-                                        std::span<const std::vector<Vec3f>> posed,
-                                        const BloodFlowOptions& options) const;
-
-  WoundMaskOptions options;
-  std::uint32_t mesh = 0;
-  tear::FlatFaces faces;
-  tear::Texels texels;
-  tear::PartFinder finder;
-  tear::Spread spread;
-  tear::BeamsOfFaces beams;
-  std::unordered_map<Index, TornParts> torn;  ///< Source triangles with lips or removed skin.
-  std::vector<float> distances;
-  std::vector<Beam> seen_by_face;  ///< Scratch of paint().
-};
-
 void WoundMask::State::renew(std::span<const Index> origins, const TornModel& model,
                              std::vector<Index>& seen) {
   const tear::SurfaceEditor& editor = tear::ModelAccess::state_of(model).editor;
   finder.follow(editor.surface());
+  std::vector<tear::EditLog::Extent> begins;
+  if (!counts_all_operations()) begins = tear::begins_of(model);
   for (const Index origin : origins) {
-    TornParts now = finder.find(origin, faces.surface, editor);
+    TornParts now = find(origin, editor, begins);
     const auto known = torn.find(origin);
-    const bool was_torn = known != torn.end(), is_torn = !now.lips.empty() || now.is_cut_away;
+    const bool was_torn = known != torn.end(), is_torn = !now.lips.empty() || now.skin.is_cut_away;
     if (was_torn ? known->second == now : !is_torn) continue;
     seen.push_back(origin);
     if (!was_torn || known->second.lips != now.lips) {
@@ -152,7 +112,33 @@ void WoundMask::State::renew(std::span<const Index> origins, const TornModel& mo
   sort_and_unite(seen);
 }
 
-void WoundMask::State::paint(Index face, Bounds& bounds) {
+TornParts WoundMask::State::find(Index face, const tear::SurfaceEditor& editor,
+                                 std::span<const tear::EditLog::Extent> begins) const {
+  TornParts found = finder.find(face, faces.surface, editor);
+  if (counts_all_operations()) return found;
+  const std::uint64_t first = options.first_operation, end = first + options.operation_count;
+  if (first >= begins.size()) return {};
+  const std::vector<Index> operations =
+      finder.operations_of(face, found.lips, faces.surface, editor, begins);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < operations.size(); ++i)
+    if (operations[i] >= first && operations[i] < end) found.lips[kept++] = found.lips[i];
+  found.lips.resize(kept);
+  if (end < begins.size()) found.skin = finder.find(face, faces.surface, editor, begins[end]).skin;
+  if (found.skin.is_cut_away)
+    found.before = finder.find(face, faces.surface, editor, begins[first]).skin;
+  return found;
+}
+
+std::vector<Index> WoundMask::State::torn_faces() const {
+  std::vector<Index> result;
+  for (const auto& [face, parts] : torn) result.push_back(face);
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+template <class Visit>
+void WoundMask::State::paint(Index face, Visit visit) {
   const Surface& surface = faces.surface;
   if (face < surface.first_triangle[mesh] || face >= surface.first_triangle[mesh + 1]) return;
   seen_by_face.clear();
@@ -167,52 +153,31 @@ void WoundMask::State::paint(Index face, Bounds& bounds) {
         const bool is_removed = parts != torn.end() && parts->second.is_removed(place);
         distances[std::size_t{row} * options.width + column] =
             static_cast<float>(is_removed ? -least : least);
-        bounds.add(column, row);
+        visit(column, row);
       });
 }
 
 std::vector<float> WoundMask::State::flow(const Character& source,
                                           std::span<const std::vector<Vec3f>> posed,
                                           const BloodFlowOptions& wanted) const {
-  const auto is_removed = [this](Index face, const std::array<double, 3>& place) {
-    const auto parts = torn.find(face);
-    return parts != torn.end() && parts->second.is_removed(place);
-  };
-  tear::Rivulets rivulets(source, faces, posed, wanted, is_removed);
-  std::vector<Index> bleeding;
-  for (const auto& [face, parts] : torn) bleeding.push_back(face);
-  std::sort(bleeding.begin(), bleeding.end());
-  for (const Index face : bleeding) rivulets.run_from(face, torn.at(face).lips);
+  tear::Rivulets rivulets(
+      source, faces, posed, wanted,
+      [this](Index face, const std::array<double, 3>& place) { return is_removed(face, place); });
+  for (const Index face : torn_faces()) rivulets.run_from(face, torn.at(face).lips);
   // A face sees the parts of rivulets beside it as lips.
-  struct Seen {
-    Index face = 0;
-    Beam beam;
-    double radius = 0;
-  };
-  std::vector<Seen> seen;
+  std::vector<SeenLip<double>> seen;
   tear::Spread beside(faces, wanted.width / 2);
   for (const tear::RivuletPart& part : rivulets.parts())
     for (const tear::SpreadBeam& at : beside.from(part.face, std::span(&part.segment, 1)))
       seen.push_back({at.face, at.beam, part.radius});
-  std::stable_sort(seen.begin(), seen.end(),
-                   [](const Seen& a, const Seen& b) { return a.face < b.face; });
   std::vector<float> flows(distances.size());
-  for (std::size_t begin = 0, end = 0; begin < seen.size(); begin = end) {
-    const Index face = seen[begin].face;
-    while (end < seen.size() && seen[end].face == face) ++end;
-    if (face < faces.surface.first_triangle[mesh] || face >= faces.surface.first_triangle[mesh + 1])
-      continue;
-    texels.for_each_of(
-        face - faces.surface.first_triangle[mesh],
-        [&](std::uint32_t column, std::uint32_t row, const std::array<double, 3>& place) {
-          const tear::Flat at = faces.place(face, place);
-          double most = 0;
-          for (std::size_t i = begin; i < end; ++i)
-            most = std::max(most, 2 * (1 - seen[i].beam.distance(at) / seen[i].radius));
-          flows[std::size_t{row} * options.width + column] =
-              static_cast<float>(std::min(most, 1.0));
-        });
-  }
+  for_each_texel_beside(
+      seen, [&](std::size_t texel, tear::Flat at, std::span<const SeenLip<double>> lips) {
+        double most = 0;
+        for (const SeenLip<double>& lip : lips)
+          most = std::max(most, 2 * (1 - lip.beam.distance(at) / lip.value));
+        flows[texel] = static_cast<float>(std::min(most, 1.0));
+      });
   return flows;
 }
 
@@ -220,8 +185,12 @@ double WoundMask::State::distance_at(Index face, const std::array<double, 3>& pl
   const tear::Flat at = faces.place(face, place);
   double least = options.reach;
   beams.for_each_in(face, [&](const Beam& beam) { least = std::min(least, beam.distance(at)); });
+  return is_removed(face, place) ? -least : least;
+}
+
+bool WoundMask::State::is_removed(Index face, const std::array<double, 3>& place) const {
   const auto parts = torn.find(face);
-  return parts != torn.end() && parts->second.is_removed(place) ? -least : least;
+  return parts != torn.end() && parts->second.is_removed(place);
 }
 
 bool WoundMask::State::has_triangles_of(const Character& other) const {
@@ -270,7 +239,8 @@ Result<TexelRectangle> WoundMask::State::update(const TornModel& model,
   std::vector<Index> seen;
   renew(origins, model, seen);
   Bounds bounds;
-  for (const Index face : seen) paint(face, bounds);
+  const auto grow = [&](std::uint32_t column, std::uint32_t row) { bounds.add(column, row); };
+  for (const Index face : seen) paint(face, grow);
   return bounds.rectangle();
 }
 
@@ -288,8 +258,7 @@ Result<WoundMask> WoundMask::create(const TornModel& model, std::uint32_t mesh,
     std::vector<Index> all(state->faces.shapes.size()), seen;
     for (Index i = 0; i < all.size(); ++i) all[i] = i;
     state->renew(all, model, seen);
-    Bounds bounds;
-    for (const Index face : seen) state->paint(face, bounds);
+    for (const Index face : seen) state->paint(face, [](std::uint32_t, std::uint32_t) {});
     return WoundMask(std::move(state));
   });
 }

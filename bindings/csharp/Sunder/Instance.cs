@@ -187,6 +187,27 @@ namespace Sunder
       return new WoundMask(mask, Scene.Drawing.Now);
     }
 
+    /// <summary>A number per texel of the wound mask, copied, in the order of its distances. The stretch is of the vertices of the last
+    /// update.</summary>
+    public float[] GetWoundChannel(WoundChannel channel, int mesh = 0)
+    {
+      float* texels;
+      uint count;
+      Check(NativeCalls.sunder_get_wound_channel(SceneNumber, Id, (uint)mesh, (uint)channel, &texels, &count));
+      return new FloatView(texels, count, Scene.Drawing.Now).ToArray();
+    }
+
+    /// <summary>Lets blood run down from the lips in the pose of the last update: how much of it is on each texel of the wound mask, 0 to
+    /// 1, copied.</summary>
+    public float[] FlowBlood(int mesh = 0, BloodFlowOptions? options = null)
+    {
+      BloodFlowOptions chosen = options ?? BloodFlowOptions.Default;
+      float* texels;
+      uint count;
+      Check(NativeCalls.sunder_flow_blood(SceneNumber, Id, (uint)mesh, &chosen, &texels, &count));
+      return new FloatView(texels, count, Scene.Drawing.Now).ToArray();
+    }
+
     public void EndWoundMask(int mesh = 0) { Changed(NativeCalls.sunder_end_wound_mask(SceneNumber, Id, (uint)mesh)); }
 
     /// <summary>The torn character as a file: the source document with the meshes that were torn.</summary>

@@ -218,6 +218,17 @@ namespace Sunder.Tests
         scene.Update(0.01);
         WoundMask mask = instance.GetWoundMask();
         Expect.That(mask.ChangedWidth > 0 && mask.Distances.Count == mask.Width * mask.Height, "wounds in the texture");
+        float[] ages = instance.GetWoundChannel(WoundChannel.Age), stretches = instance.GetWoundChannel(WoundChannel.Stretch);
+        Expect.Equal(ages.Length, mask.Distances.Count, "an age per texel");
+        Expect.That(Array.Exists(ages, age => age == 0) && Array.TrueForAll(ages, age => age == 0 || age == -1), "one wound, of the newest operation");
+        Expect.That(Array.TrueForAll(stretches, stretch => stretch > 0), "stretches");
+        BloodFlowOptions running = BloodFlowOptions.Default;
+        running.Length = 0.5;
+        float[] blood = instance.FlowBlood(0, running);
+        Expect.That(blood.Length == ages.Length && Array.Exists(blood, one => one > 0), "blood runs");
+        Expect.That(Array.TrueForAll(blood, one => one >= 0 && one <= 1), "shares of blood");
+        running.Width = -1;
+        Expect.Fails(() => instance.FlowBlood(0, running), Status.InvalidArgument);
         SurfaceContact contact;
         Expect.That(instance.FindNearest(new Vector3d(0, 1, 2), 10, out contact) && contact.Distance > 0, "the nearest place");
         Expect.That(!instance.CastRay(new Vector3d(0, 100, 0), new Vector3d(0, 1, 0), 1, out contact), "a ray that misses");

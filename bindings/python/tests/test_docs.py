@@ -12,7 +12,7 @@ def test_programs_of_the_page(tmp_path, monkeypatch):
     shutil.copy(RIGS / 'two_clips.glb', tmp_path / 'model.glb')
     monkeypatch.chdir(tmp_path)
     programs = re.findall(r'^```python\n(.*?)^```', PAGE.read_text(encoding='utf-8'), re.MULTILINE | re.DOTALL)
-    assert len(programs) == 7
+    assert len(programs) == 9
     names = {}
     for program in programs:
         exec(compile(program, str(PAGE), 'exec'), names)

@@ -186,6 +186,8 @@ class SUNDER_API CharacterInstance {
   /// @return not_found: the mesh has none; limit_exceeded: out of memory. O(1), but after an
   ///         operation for which memory did not suffice, which is made up for.
   Result<PaintedWounds> wound_mask(std::uint32_t mesh);
+  /// The mask alone, for its channels; the texels that changed stay to be told. @return as above.
+  Result<const WoundMask*> peek_wound_mask(std::uint32_t mesh);
 
   [[nodiscard]] const std::shared_ptr<const CharacterAsset>& asset() const;
   /// The character in its current state: that of the asset, or of model().

@@ -23,6 +23,19 @@ struct WoundMaskOptions {
   /// Texels, 1 to 64. So far beyond the border of a chart texels get the value of the nearest place
   /// in it, so that a filter that reads across a UV seam finds the wound.
   std::uint32_t dilation = 4;
+  /// The operations whose lips and removed skin count, as TornModel::history() numbers them: those
+  /// before the first one and after the last one are as if they had made none, and paths cross
+  /// theirs. kNone: all further.
+  std::uint32_t first_operation = 0, operation_count = kNone;
+};
+
+/// What else a mask knows of the lip that is nearest to a texel.
+enum class WoundChannel : std::uint8_t {
+  /// The number of operations since the one that made it, 0 for the newest one; -1 where no lip is
+  /// within reach.
+  age,
+  /// How deep the wall below it is, metres in bind space; 0 where there is none.
+  depth,
 };
 
 /// A part of a texture. Texels are counted from the upper left corner.
@@ -101,6 +114,24 @@ class SUNDER_API WoundMask {
   ///         O(vertices + lips + texels of the faces beside rivulets).
   [[nodiscard]] Result<std::vector<float>> flow(const TornModel& model, const ModelPose& pose,
                                                 const BloodFlowOptions& options = {}) const;
+
+  /// What else is known of the lip nearest to each texel, as distances() is ordered. Of lips at the
+  /// same distance the newest or deepest one counts. The depth of a lip is the mean of that at its
+  /// ends.
+  /// @param model  in the state that the mask followed.
+  /// @return invalid_argument: the model has another source, or the mask did not follow it;
+  ///         limit_exceeded: out of memory. O(texture + lips x faces within reach of each + texels
+  ///         of these faces).
+  [[nodiscard]] Result<std::vector<float>> channel(const TornModel& model,
+                                                   WoundChannel wanted) const;
+  /// How far the skin within reach of lips is stretched: the largest principal stretch of the torn
+  /// triangle that a texel shows, from bind space; 1 for removed skin and beyond reach. A triangle
+  /// less high than a thousandth of its longest side has the stretch of the largest one beside it.
+  /// @param posed  the positions of the torn mesh's vertices, as deform_mesh() or a
+  ///               CharacterInstance gives them, with or without displacements of tissue.
+  /// @return as channel(); size_mismatch; non_finite_value. O(texture + texels within reach)
+  [[nodiscard]] Result<std::vector<float>> stretches(const TornModel& model,
+                                                     std::span<const Vec3f> posed) const;
 
   /// Per texel, row by row from the top: metres, at most WoundMaskOptions::reach. Negative where
   /// operations removed the skin. Texels that no triangle uses have the reach.

@@ -90,6 +90,34 @@ struct SkinGraph {
 
 }  // namespace
 
+std::vector<BruteForceLip> brute_force_lips(const TornModel& model, std::uint32_t mesh) {
+  std::vector<BruteForceLip> lips;
+  for (const auto& [face, of_face] : SkinGraph(model, mesh, 1).lips_of_face)
+    lips.insert(lips.end(), of_face.begin(), of_face.end());
+  return lips;
+}
+
+void LipHistory::record(const TornModel& model) {
+  lips_.resize(model.undo_count());
+  lips_.push_back(brute_force_lips(model, 0));
+}
+
+std::uint32_t LipHistory::operation_of(const BruteForceLip& lip) const {
+  constexpr double kRounding = 1e-5;  // of positions, metres
+  const Vec3d middle = (lip[0] + lip[1]) / 2;
+  auto operations = static_cast<std::uint32_t>(lips_.size() - 1);
+  const auto is_there_after = [&](std::uint32_t count) {
+    return std::ranges::any_of(lips_[count], [&](const BruteForceLip& other) {
+      const Vec3d along = other[1] - other[0];
+      const double part =
+          std::clamp((middle - other[0]).dot(along) / along.squaredNorm(), 0.0, 1.0);
+      return (middle - other[0] - part * along).norm() < kRounding;
+    });
+  };
+  while (operations > 1 && is_there_after(operations - 1)) --operations;
+  return operations - 1;
+}
+
 std::vector<double> brute_force_wound(const TornModel& model, std::uint32_t mesh,
                                       std::uint32_t width, std::uint32_t height,
                                       std::uint32_t steps) {

@@ -10,7 +10,7 @@ from typing import Optional, Union
 import numpy as np
 
 from .abi import abi
-from .arrays import copy, matrices
+from .arrays import copy, matrices, numbers, pointer_to
 from .character_arrays import CharacterStructs
 from .errors import SunderError
 from .picture import colours_of, draw, png
@@ -258,18 +258,53 @@ def material(name: str, **fields: float):
     return found
 
 
+_FIELDS = ('strength', 'toughness', 'stiffness', 'tension', 'thickness')
+
+
+def _fields(fields, kept):
+    made = (abi.type('tissue_field') * len(fields))()
+    for raw, (key, values) in zip(made, fields.items()):
+        mesh, name = key if isinstance(key, tuple) else (0, key)
+        if name not in _FIELDS:
+            raise ValueError(f'{name!r} is no field of tissue; there are {", ".join(_FIELDS)}')
+        kept.append(numbers(values, np.float32, -1))
+        raw.struct_size, raw.mesh, raw.field = ctypes.sizeof(raw), mesh, abi.constant(f'FIELD_{name.upper()}')
+        raw.value_count, raw.values = len(kept[-1]), pointer_to(kept[-1], ctypes.c_float)
+    return made
+
+
+def _perforations(perforations, kept):
+    made = (abi.type('perforation') * len(perforations))()
+    for raw, (places, strength) in zip(made, perforations):
+        kept.append((abi.type('surface_place') * len(places))())
+        for place, (mesh, triangle, barycentric) in zip(kept[-1], places):
+            place.mesh, place.triangle = mesh, triangle
+            place.barycentric[:] = barycentric
+        raw.struct_size, raw.place_count, raw.places = ctypes.sizeof(raw), len(places), kept[-1]
+        raw.strength = strength
+    return made
+
+
 class Asset:
     """What instances of one character share. O(size of the character).
 
-    soft: with tissue, of `materials` (of material(); the first is that of all particles). Other options are fields of
-    sunder_asset_options: has_normals, has_tangents, skinning, gravity, tension, particle_range, ...
+    soft: with tissue, of `materials` (of material(); the first is that of all particles). fields: factors per vertex of a mesh
+    where the tissue differs, {'toughness': values} of mesh 0 or {(mesh, 'toughness'): values}, of strength, toughness, stiffness,
+    tension, thickness. perforations: lines along which it is weaker, (places, strength); a place is (mesh, triangle,
+    barycentric). Other options are fields of sunder_asset_options: has_normals, has_tangents, skinning, gravity, tension,
+    particle_range, ...
     """
 
-    def __init__(self, character: Character, *, soft: bool = False, materials=(), **options):
+    def __init__(self, character: Character, *, soft: bool = False, materials=(), fields=None, perforations=(), **options):
         values = (abi.type('material') * len(materials))(*materials)
         raw = abi.new('asset_options', is_soft=int(soft), **options)
         if materials:
             raw.material_count, raw.materials = len(materials), values
+        kept = []  # what the structs point to, until the call returns
+        if fields:
+            raw.field_count, raw.fields = len(fields), _fields(fields, kept)
+        if perforations:
+            raw.perforation_count, raw.perforations = len(perforations), _perforations(perforations, kept)
         self.character = character
         self._handle = abi.output('create_asset', character._handle, ctypes.byref(raw))
 

@@ -18,6 +18,7 @@ from .piece import Piece
 _LAYERS = {'nearest': 'LAYERS_NEAREST', 'all': 'LAYERS_ALL'}
 _POLICIES = {'barycentric': 'WEIGHTS_BARYCENTRIC', 'pose_exact': 'WEIGHTS_POSE_EXACT', 'refit': 'WEIGHTS_REFIT',
              'exact': 'WEIGHTS_EXACT', 'model': 'WEIGHTS_OF_MODEL'}
+_CHANNELS = {'age': 'WOUND_AGE', 'depth': 'WOUND_DEPTH', 'stretch': 'WOUND_STRETCH'}
 _MOTIONS = {'frozen': 'PIECE_FROZEN', 'animated': 'PIECE_ANIMATED', 'vanishes': 'PIECE_VANISHES'}
 _MODES = {'loop': 'PLAY_LOOP', 'ping_pong': 'PLAY_PING_PONG', 'once': 'PLAY_ONCE'}
 _KINDS = {'whole': 'LAYER_WHOLE', 'animated': 'LAYER_ANIMATED', 'additive': 'LAYER_ADDITIVE'}
@@ -189,6 +190,7 @@ class Instance:
     def __init__(self, scene: Scene, asset: Asset, handle: int):
         self.scene, self.asset = scene, asset
         self._handle = handle
+        self._mask_widths = {}  # per mesh
 
     def _call(self, name, *arguments):
         self.scene._change()
@@ -391,8 +393,11 @@ class Instance:
             self.scene._borrowed -= 1
 
     def begin_wound_mask(self, mesh: int = 0, **options) -> None:
-        """Keeps the wounds of a mesh in its texture from now on. Options: width, height, uv_set, dilation, reach."""
-        self._call('begin_wound_mask', mesh, ctypes.byref(abi.new('wound_mask_options', **options)))
+        """Keeps the wounds of a mesh in its texture from now on. Options: width, height, uv_set, dilation, reach; first_operation and
+        operation_count: only the wounds of these operations."""
+        raw = abi.new('wound_mask_options', **options)
+        self._call('begin_wound_mask', mesh, ctypes.byref(raw))
+        self._mask_widths[mesh] = raw.width
 
     def wound_mask(self, mesh: int = 0) -> WoundMask:
         """The wounds in the texture, copied, and what may have changed since the last call."""
@@ -400,6 +405,23 @@ class Instance:
         self._call('get_wound_mask', mesh, ctypes.byref(raw))
         changed = (slice(raw.top, raw.top + raw.changed_height), slice(raw.left, raw.left + raw.changed_width))
         return WoundMask(copy(raw.distances, raw.height, raw.width), changed, raw.overlapping_texels, raw.unpainted_triangles)
+
+    def wound_channel(self, channel: str, mesh: int = 0) -> np.ndarray:
+        """(height, width), copied, of a mesh with a wound mask. 'age': the operations since the one that made the nearest lip, -1
+        where none is within reach; 'depth': of the wall below that lip, metres; 'stretch': the largest principal stretch of the
+        skin that was drawn, 1 beyond reach."""
+        return self._texels('get_wound_channel', mesh, _choice(_CHANNELS, channel, 'channel'))
+
+    def flow_blood(self, mesh: int = 0, **options) -> np.ndarray:
+        """Lets blood run down from the lips in the pose of the last update: how much of it is on each texel of the wound mask, 0 to
+        1, (height, width). Options: down, length, width, spacing (metres), seed."""
+        return self._texels('flow_blood', mesh, ctypes.byref(abi.new('blood_flow_options', **options)))
+
+    def _texels(self, name, mesh, argument):
+        texels, count = ctypes.POINTER(ctypes.c_float)(), ctypes.c_uint32()
+        abi.call(name, self.scene._handle, self._handle, mesh, argument, ctypes.byref(texels), ctypes.byref(count))
+        width = self._mask_widths[mesh]
+        return copy(texels, count.value // width, width)
 
     def save(self, influences: Optional[int] = 0) -> bytes:
         """The torn character as a GLB: the source document with the meshes that were torn."""
