@@ -1,5 +1,5 @@
 // One character in a scene.
-import { SUNDER_IN_BACKGROUND, sunder_bore, sunder_collider, sunder_contact, sunder_cut, sunder_detach, sunder_force_tearing_options, sunder_layer_options, sunder_save_options, sunder_stroke_sampling, sunder_suture, sunder_tear_options, sunder_weld, sunder_wound_mask_options } from '../generated/calls.js';
+import { SUNDER_IN_BACKGROUND, sunder_blood_flow_options, sunder_bore, sunder_collider, sunder_contact, sunder_cut, sunder_detach, sunder_force_tearing_options, sunder_layer_options, sunder_save_options, sunder_stroke_sampling, sunder_suture, sunder_tear_options, sunder_weld, sunder_wound_mask_options } from '../generated/calls.js';
 import { Hold, Layer, Stroke } from './handles_of_tissue.js';
 import { takeBytes, takeText } from './made_bytes.js';
 import { materialOf } from './materials.js';
@@ -9,6 +9,7 @@ import { PosedMesh } from './posed_mesh.js';
 import { invalidArgument, invalidHandle } from './sunder_error.js';
 import { takeReport, validationFields } from './validation.js';
 
+const CHANNELS = ['age', 'depth', 'stretch'];
 const contactOf = ({ has_hit, contact }) => (has_hit ? namesOf(contact) : null);
 const flagsOf = (background) => (background ? SUNDER_IN_BACKGROUND : 0);
 
@@ -152,7 +153,7 @@ export class Instance {
     const { memory } = this.#calls, mesh = this.#call('sunder_get_instance_mesh', index);
     return new MeshData(memory, mesh, this.#validity());
   }
-  /** Keeps the wounds of a mesh in its texture from now on. @param options  width, height, uvSet, dilation, reach */
+  /** Keeps the wounds of a mesh in its texture from now on. @param options  width, height, uvSet, dilation, reach; firstOperation, operationCount: only their wounds */
   beginWoundMask(options = {}, index = 0) { this.#change('sunder_begin_wound_mask', index, fieldsOf(sunder_wound_mask_options, options)); }
   endWoundMask(index = 0) { this.#change('sunder_end_wound_mask', index); }
   /** Distances to the nearest lip along the surface, row by row from the top, and the rectangle that changed since the last call. */
@@ -162,6 +163,17 @@ export class Instance {
       ...namesOf(mask), changed: { left, top, width: changed_width, height: changed_height },
       distances: this.#calls.memory.viewOf(Float32Array, distances, mask.width * mask.height) };
   }
+  /** Per texel of the mask. 'age': operations since the one that made the nearest lip, -1: none in reach; 'depth': of the wall below
+   * that lip; 'stretch': of the skin that was drawn, 1 beyond reach. A view until the next channel or flowBlood() of the scene. */
+  woundChannel(channel, index = 0) {
+    if (!CHANNELS.includes(channel)) throw invalidArgument(`'${channel}' is no channel; there are ${CHANNELS.join(', ')}`);
+    return this.#texelsOf(this.#call('sunder_get_wound_channel', index, CHANNELS.indexOf(channel)));
+  }
+  /** Lets blood run down from the lips: how much is on each texel of the mask, 0 to 1. @param options  down, length, width, spacing, seed */
+  flowBlood(options = {}, index = 0) {
+    return this.#texelsOf(this.#call('sunder_flow_blood', index, fieldsOf(sunder_blood_flow_options, options)));
+  }
+  #texelsOf({ texels, texel_count }) { return this.#calls.memory.viewOf(Float32Array, texels, texel_count); }
   #validity() {
     const scene = this.#scene, version = scene.version;
     return () => {

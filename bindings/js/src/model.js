@@ -1,23 +1,30 @@
 // A rigged model, and what its instances share.
-import { sunder_asset_options, sunder_bone, sunder_clip, sunder_load_options, sunder_mesh, sunder_note, sunder_save_options, sunder_skin, sunder_transform } from '../generated/calls.js';
+import { sunder_asset_options, sunder_bone, sunder_clip, sunder_load_options, sunder_mesh, sunder_note, sunder_perforation, sunder_save_options, sunder_skin, sunder_tissue_field, sunder_transform } from '../generated/calls.js';
 import { characterData } from './character_arrays.js';
 import { library } from './library.js';
 import { takeBytes } from './made_bytes.js';
 import { materialOf } from './materials.js';
 import { MeshData } from './mesh_data.js';
-import { bytesOf, fieldsOf } from './options.js';
+import { bytesOf, fieldsOf, triple } from './options.js';
 import { Owned } from './owned.js';
 import { Ragdoll } from './ragdoll.js';
 import { invalidArgument } from './sunder_error.js';
 
 const NOTES = ['information', 'repaired', 'dropped', 'warning'];
 
-/** `soft`: false, true, a material's name or an object; `materials`: several of them. */
-function assetFields(calls, { soft = true, material, materials, ...others }) {
+const factorsOf = (one) => fieldsOf(sunder_tissue_field, { ...one, valueCount: one.values?.length ?? 0 });
+const placeOf = (one) => ({ ...one, barycentric: triple(one.barycentric, 'barycentric of a place') });
+const perforationOf = ({ places = [], ...others }) => fieldsOf(sunder_perforation, { ...others, places: places.map(placeOf), placeCount: places.length });
+
+/** `soft`: false, true, a material's name or an object; `materials`: several of them. `fields`: factors per vertex,
+ * { mesh, field: 'toughness', values }; `perforations`: weak lines, { places: [{ mesh, triangle, barycentric }], strength }. */
+function assetFields(calls, { soft = true, material, materials, fields: factors = [], perforations = [], ...others }) {
   const list = materials ?? [material ?? (typeof soft === 'string' || typeof soft === 'object' ? soft : null)].filter(Boolean);
   const fields = fieldsOf(sunder_asset_options, others);
   fields.is_soft = soft ? 1 : 0;
   if (list.length) Object.assign(fields, { materials: list.map((one) => materialOf(calls, one)), material_count: list.length });
+  if (factors.length) Object.assign(fields, { fields: factors.map(factorsOf), field_count: factors.length });
+  if (perforations.length) Object.assign(fields, { perforations: perforations.map(perforationOf), perforation_count: perforations.length });
   return fields;
 }
 

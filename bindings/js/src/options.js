@@ -15,6 +15,7 @@ const CHOICES = {
   kind: chosen('LAYER', ['whole', 'animated', 'additive']),
   mode: chosen('PLAY', ['loop', 'pingPong', 'once']),
   easing: chosen('EASE', ['linear', 'smooth', 'in', 'out']),
+  field: chosen('FIELD', ['strength', 'toughness', 'stiffness', 'tension', 'thickness']),
   shape: chosen('COLLIDER', ['sphere', 'capsule', 'box', 'halfSpace']),
 };
 /** Words that read better than the fields. */
@@ -36,7 +37,7 @@ export function quadruple(value, what) {
 }
 
 /** How many numbers a field has, where it is a vector. */
-const VECTORS = new Set(['point', 'normal', 'origin', 'direction', 'gravity', 'ray_origin', 'ray_direction', 'size', 'place']);
+const VECTORS = new Set(['point', 'normal', 'origin', 'direction', 'gravity', 'ray_origin', 'ray_direction', 'size', 'place', 'down']);
 
 function valueOf(field, value) {
   if (CHOICES[field] && typeof value === 'string') {

@@ -216,8 +216,9 @@ test('clips play, layers fade, poses are set and read', async () => {
   assert.equal(model.bones[model.bone('bone1')].parent, model.bone('bone0'));
 });
 
-test('a model from arrays is torn like one from a file', async () => {
-  const positions = [], triangles = [], n = 16;
+/** A square metre of 16 x 16 cells in the plane z = 0, as arrays. */
+function sheetArrays(n = 16) {
+  const positions = [], triangles = [];
   for (let y = 0; y <= n; ++y) for (let x = 0; x <= n; ++x) positions.push(x / n, y / n, 0);
   for (let y = 0; y < n; ++y) {
     for (let x = 0; x < n; ++x) {
@@ -225,12 +226,54 @@ test('a model from arrays is torn like one from a file', async () => {
       triangles.push(a, a + 1, a + n + 2, a, a + n + 2, a + n + 1);
     }
   }
-  const model = await Sunder.fromArrays({ meshes: [{ positions, triangles }] }, { soft: false });
+  return { meshes: [{ positions, triangles }] };
+}
+
+test('a model from arrays is torn like one from a file', async () => {
+  const model = await Sunder.fromArrays(sheetArrays(), { soft: false });
   const scene = await Sunder.createScene();
   const sheet = scene.spawn(model);
   sheet.tear([[[0.21, 0.33, 1], [0.21, 0.33, -1]], [[0.83, 0.67, 1], [0.83, 0.67, -1]]]);
   const [{ length }] = scene.update(0);
   assert.ok(Math.abs(length - Math.hypot(0.62, 0.34)) < 1e-6, `${length}`);
+});
+
+/** How far the tissue beside a slit in the middle moves at most, to the left and to the right, after a second. */
+async function gapes(options) {
+  const scene = await Sunder.createScene(), sheet = scene.spawn(await Sunder.fromArrays(sheetArrays(), { soft: 'skin', tension: 5, ...options }));
+  sheet.prepareToTear();
+  scene.update(0);
+  sheet.tear([[[0.3, 0.52, 1], [0.3, 0.52, -1]], [[0.7, 0.52, 1], [0.7, 0.52, -1]]]);
+  scene.update(0);
+  const before = sheet.mesh().positions.slice();
+  for (let i = 0; i < 30; ++i) scene.update(1 / 30);
+  const after = sheet.mesh().positions, most = { left: 0, right: 0 };
+  for (let v = 0; v < before.length; v += 3) {
+    const moved = Math.hypot(after[v] - before[v], after[v + 1] - before[v + 1], after[v + 2] - before[v + 2]), side = before[v] < 0.5 ? 'left' : 'right';
+    most[side] = Math.max(most[side], moved);
+  }
+  return most;
+}
+
+test('tissue moves less where factors make it stiff, and factors of one change nothing', async () => {
+  const x = sheetArrays().meshes[0].positions.filter((_, i) => i % 3 === 0);
+  const plain = await gapes({}), ones = await gapes({ fields: [{ field: 'stiffness', values: x.map(() => 1) }] });
+  assert.deepEqual(ones, plain);
+  const stiff = await gapes({ fields: [{ mesh: 0, field: 'stiffness', values: Float32Array.from(x, (at) => (at > 0.5 ? 8 : 1)) }] });
+  assert.ok(stiff.right < 0.8 * stiff.left && stiff.right < 0.8 * plain.right, JSON.stringify({ plain, stiff }));
+});
+
+test('fields and perforations that do not fit are told', async () => {
+  const make = (options) => Sunder.fromArrays(sheetArrays(), options), values = new Float32Array(289).fill(1);
+  await assert.rejects(make({ fields: [{ field: 'stiffness', values: [1, 2] }] }), { code: 'size_mismatch', message: /2 values; the mesh has 289/ });
+  await assert.rejects(make({ fields: [{ field: 'hardness', values }] }), /none of strength, toughness/);
+  await assert.rejects(make({ fields: [{ field: 'stiffness' }] }), SunderError);
+  await assert.rejects(make({ fields: [{ mesh: 1, field: 'stiffness', values }] }), { code: 'index_out_of_range' });
+  const places = [{ triangle: 0, barycentric: [1, 0, 0] }, { mesh: 0, triangle: 9, barycentric: [0, 0.5, 0.5] }];
+  await assert.rejects(make({ perforations: [{ places, strength: 2 }] }), { code: 'invalid_argument', message: /strength of perforation 0 is 2/ });
+  await assert.rejects(make({ perforations: [{ places: [places[0], { triangle: 9, barycentric: [1, 0] }], strength: 0.5 }] }), /barycentric of a place/);
+  await assert.rejects(make({ perforations: [{ places: places.slice(1), strength: 0.5 }] }), /perforation 0 has 1 places/);
+  (await make({ perforations: [{ places, strength: 0.5 }], fields: [{ field: 'toughness', values }] })).dispose();
 });
 
 test('errors have a code, an index and a text; wrong options are told', async () => {

@@ -34,3 +34,27 @@ test('rectangles make the whole texture, and undo takes the wound out of it', as
   it.endWoundMask();
   assert.throws(() => it.woundMask(), SunderError);
 });
+
+test('channels tell of the nearest lip, and blood runs from it', async () => {
+  const scene = await Sunder.createScene(), it = scene.spawn(await Sunder.load(rig('tube'), { soft: false }));
+  scene.update(0);
+  assert.throws(() => it.woundChannel('age'), { code: 'not_found' });
+  it.beginWoundMask({ width: 128, height: 64, reach: 0.1 });
+  assert.ok(it.woundChannel('age').every((age) => age === -1));
+  it.tear(FRONT_STROKE, { wallDepth: 0.05 });
+  scene.update(1 / 60);
+  const distances = it.woundMask().distances.slice(), reach = Math.fround(0.1);
+  const ages = it.woundChannel('age').slice(), depths = it.woundChannel('depth').slice(), stretches = it.woundChannel('stretch').slice();
+  distances.forEach((distance, i) => {
+    if (Math.abs(distance) < 0.099) assert.ok(ages[i] === 0 && depths[i] > 0);
+    if (distance === reach) assert.ok(ages[i] === -1 && depths[i] === 0 && stretches[i] === 1);
+  });
+  assert.ok(ages.includes(0) && ages.includes(-1));
+  const blood = it.flowBlood({ down: { x: 0, y: -1, z: 0 }, length: 0.3, width: 0.02, spacing: 0.02, seed: 3 });
+  assert.equal(blood.length, 128 * 64);
+  assert.ok(blood.every((one) => one >= 0 && one <= 1) && blood.some((one) => one > 0));
+  assert.throws(() => it.flowBlood({ width: -1 }), { code: 'invalid_argument' });
+  assert.throws(() => it.woundChannel('heat'), /no channel; there are age, depth, stretch/);
+  it.beginWoundMask({ width: 128, height: 64, reach: 0.1, firstOperation: 1 });
+  assert.ok(it.woundMask().distances.every((distance) => distance === reach), 'there is no operation after the first');
+});

@@ -41,6 +41,12 @@ export interface ModelOptions {
   /** N/m, pulls lips apart. */
   tension?: number;
   addsPoseStrain?: boolean;
+  /** Where tissue differs: factors per vertex of a mesh. */
+  fields?: { mesh?: number; field: 'strength' | 'toughness' | 'stiffness' | 'tension' | 'thickness'; values: ArrayLike<number> }[];
+  /** Lines along which tissue is weaker, as between stamps; strength: 0.001 to 1. */
+  perforations?: { places: { mesh?: number; triangle: number; barycentric: ArrayLike<number> }[]; strength: number }[];
+  /** Metres; lips and flaps of this thickness stop at one another. */
+  selfContactThickness?: number; selfContactFriction?: number;
 }
 export interface LoadOptions extends ModelOptions {
   /** Refuses what would otherwise be repaired or dropped. */
@@ -262,6 +268,13 @@ export interface ValidationReport {
   deviations: Float32Array; bounds: Float32Array;
 }
 
+export interface WoundMaskOptions {
+  width?: number; height?: number; uvSet?: number; dilation?: number;
+  /** Metres along the surface. */
+  reach?: number;
+  /** Only the wounds of these operations, as the log numbers them. */
+  firstOperation?: number; operationCount?: number;
+}
 /** The wounds of a mesh in its texture: metres along the surface from the nearest lip, negative where skin was removed. */
 export interface WoundMask {
   width: number; height: number; overlappingTexels: number; unpaintedTriangles: number;
@@ -300,9 +313,13 @@ export class Instance {
   readonly matrices: Float64Array;
   mesh(index?: number, seen?: bigint): PosedMesh;
   source(index?: number): MeshData;
-  beginWoundMask(options?: { width?: number; height?: number; uvSet?: number; dilation?: number; reach?: number }, index?: number): void;
+  beginWoundMask(options?: WoundMaskOptions, index?: number): void;
   endWoundMask(index?: number): void;
   woundMask(index?: number): WoundMask;
+  /** A view until the next one of the scene: per texel of the mask, -1, 0 or 1 where there is no wound. */
+  woundChannel(channel: 'age' | 'depth' | 'stretch', index?: number): Float32Array;
+  /** How much blood runs over each texel of the mask, 0 to 1. Lengths in metres. */
+  flowBlood(options?: { down?: Vector3Like; length?: number; width?: number; spacing?: number; seed?: number | bigint }, index?: number): Float32Array;
   set visible(visible: boolean);
   set screenHeight(pixels: number);
   readonly tissue: { particleCount: number; pointCount: number; isAwake: boolean };
