@@ -76,7 +76,7 @@ class SUNDER_API CharacterInstance {
   /// As TornModel::pack(): for an instance that will not be torn for a while. A Scene does it.
   Status pack();
 
-  // ---- Operations: each is the call of or on TornModel of its name, documented there. The particles
+  // ---- Operations: each is the call of TornModel of its name, documented there. The particles
   // follow at once; the next draw() shows the effect. All return what TornModel returns; also
   // limit_exceeded if the particles cannot follow without enough memory, after which only a new
   // instance helps.

@@ -53,10 +53,10 @@ struct RedoCommand {};
 
 /// An operation on an instance. A PlaneCut cuts, a Bore drills, a Weld closes wounds, a
 /// Suture sews them, a WeightsOperation assigns new weights to torn vertices.
-using SceneCommand = std::variant<TearCommand, PlaneCut, Bore, BeginStrokeCommand,
-                                  ExtendStrokeCommand, EndStrokeCommand, CancelStrokeCommand,
-                                  DetachCommand, UndoCommand, RedoCommand, WeightsOperation, Weld,
-                                  Suture>;
+using SceneCommand =
+    std::variant<TearCommand, PlaneCut, Bore, BeginStrokeCommand, ExtendStrokeCommand,
+                 EndStrokeCommand, CancelStrokeCommand, DetachCommand, UndoCommand, RedoCommand,
+                 WeightsOperation, Weld, Suture>;
 
 /// How the tissue of a piece moved when it was detached.
 struct PieceTissue {
