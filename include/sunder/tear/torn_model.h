@@ -258,8 +258,8 @@ SUNDER_API void mark_scars(const TornModel& model, Character& character);
 /// Sews wounds: ties threads between points of lips that lie on one another in bind space, evenly
 /// along each wound. The surface stays as it is; SoftBody pulls the lips together.
 /// @return as TornModel::tear(); runs: the wounds that were sewn, 0 if there was nothing to sew;
-///         threads_of() has their threads. O(triangles that operations changed), and O(lips) for each place;
-///         allocates.
+///         threads_of() has their threads. O(triangles that operations changed), and O(lips) for
+///         each place; allocates.
 SUNDER_API Result<TearReport> suture(TornModel& model, const ModelPose& pose, const Suture& suture,
                                      ChangeRecord* change);
 
