@@ -142,6 +142,15 @@ Result<CharacterInstance> make_soft_instance(std::shared_ptr<const Character> ch
   return instance;
 }
 
+/// How many sutures a history ends with that tied threads.
+std::size_t last_sutures(std::span<const Operation> history, std::span<const TearReport> reports) {
+  std::size_t count = 0;
+  for (std::size_t i = history.size();
+       i > 0 && std::holds_alternative<SutureOperation>(history[i - 1]); --i)
+    if (reports[i - 1].runs > 0) ++count;
+  return count;
+}
+
 }  // namespace
 
 Result<GapingModel> make_gaping_model(std::shared_ptr<const Character> character,
@@ -164,8 +173,14 @@ Result<GapingModel> make_gaping_model(std::shared_ptr<const Character> character
     if (!wound.lips.empty()) model.wounds.push_back(std::move(wound));
     model.reports.push_back(std::move(*report));
   }
+  // Threads hold wounds that would gape as wide as others: the tension is that without them.
+  const std::size_t sutures = last_sutures(history, model.reports);
+  for (std::size_t i = 0; i < sutures; ++i)
+    if (const Status status = model.instance.undo(); !status) return status;
   if (const Status status = choose_tensions(model, pose, source->thicknesses); !status)
     return status;
+  for (std::size_t i = 0; i < sutures; ++i)
+    if (const Status status = model.instance.redo(); !status) return status;
   return model;
 }
 
