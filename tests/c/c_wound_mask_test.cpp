@@ -73,7 +73,7 @@ std::vector<float> channel_of(const Twins& twins, std::uint32_t channel) {
 }
 
 TEST(CWoundMask, channels_and_blood_have_the_bits_of_those_of_cpp) {
-  Random random(11);
+  Random random(12);
   Twins twins(make_atlas_tube(24, 12));
   twins.update();
   sunder_wound_mask_options options = sunder_default_wound_mask_options();
