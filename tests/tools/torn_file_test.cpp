@@ -194,6 +194,27 @@ TEST_F(TornFile, marks_scars_and_says_when_there_is_nothing_to_weld) {
         << bad;
 }
 
+TEST_F(TornFile, opens_less_where_wounds_are_sewn) {
+  const std::string log = write("one.json", kOneTear);
+  const auto widest_gap = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> options = {"--open", "--report", path("r.json")};
+    options.insert(options.end(), more.begin(), more.end());
+    torn(model(), log, "open.glb", options);
+    return json::parse(test::read_bytes(path("r.json")))["open"]["widest_gap"].get<double>();
+  };
+  const double open = widest_gap({});
+  EXPECT_LT(widest_gap({"--suture", "all,spacing=0.05", "--save-log", path("s.json")}), 0.5 * open);
+  EXPECT_NEAR(widest_gap({"--suture", "all,strength=1e-9"}), open, 0.05 * open);
+  const json logged = json::parse(test::read_bytes(path("s.json")))["operations"].back();
+  EXPECT_EQ(logged["op"], "suture");
+  EXPECT_EQ(logged["spacing"], 0.05);
+  for (const char* bad : {"nowhere", "all,spacing=-1", "all,width=1", "all,spacing", "all,reach=1"})
+    EXPECT_EQ(run_sunder({"tear", model(), "--ops", log, "-o", path("bad.glb"), "--suture", bad})
+                  .exit_code,
+              2)
+        << bad;
+}
+
 TEST_F(TornFile, with_policies_tells_how_many_vertices_are_fitted) {
   const std::string result = torn(model(), write("weighed.json", kWeighed), "weighed.glb");
   const Check check = check_torn(model(), result, "--json");

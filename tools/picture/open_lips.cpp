@@ -142,13 +142,24 @@ Result<CharacterInstance> make_soft_instance(std::shared_ptr<const Character> ch
   return instance;
 }
 
-/// How many sutures a history ends with that tied threads.
-std::size_t last_sutures(std::span<const Operation> history, std::span<const TearReport> reports) {
-  std::size_t count = 0;
-  for (std::size_t i = history.size();
-       i > 0 && std::holds_alternative<SutureOperation>(history[i - 1]); --i)
-    if (reports[i - 1].runs > 0) ++count;
-  return count;
+/// The part of a history before the sutures at its end.
+std::span<const Operation> without_last_sutures(std::span<const Operation> history) {
+  while (!history.empty() && std::holds_alternative<SutureOperation>(history.back()))
+    history = history.first(history.size() - 1);
+  return history;
+}
+
+Status apply_to(GapingModel& model, std::span<const Operation> operations) {
+  for (const Operation& operation : operations) {
+    std::vector<ChangeRecord> changes;
+    Result<TearReport> report = model.instance.apply(operation, &changes);
+    if (!report) return report.error();
+    Wound wound = wound_of(changes);
+    if (!std::holds_alternative<CutOperation>(operation)) wound.length = report->length_posed;
+    if (!wound.lips.empty()) model.wounds.push_back(std::move(wound));
+    model.reports.push_back(std::move(*report));
+  }
+  return {};
 }
 
 }  // namespace
@@ -164,23 +175,12 @@ Result<GapingModel> make_gaping_model(std::shared_ptr<const Character> character
   Result<CharacterInstance> instance = make_soft_instance(std::move(character), range);
   if (!instance) return instance.error();
   GapingModel model{std::move(*instance), {}, {}, {kFirstTension, {}}};
-  for (const Operation& operation : history) {
-    std::vector<ChangeRecord> changes;
-    Result<TearReport> report = model.instance.apply(operation, &changes);
-    if (!report) return report.error();
-    Wound wound = wound_of(changes);
-    if (!std::holds_alternative<CutOperation>(operation)) wound.length = report->length_posed;
-    if (!wound.lips.empty()) model.wounds.push_back(std::move(wound));
-    model.reports.push_back(std::move(*report));
-  }
   // Threads hold wounds that would gape as wide as others: the tension is that without them.
-  const std::size_t sutures = last_sutures(history, model.reports);
-  for (std::size_t i = 0; i < sutures; ++i)
-    if (const Status status = model.instance.undo(); !status) return status;
+  const std::span<const Operation> tears = without_last_sutures(history);
+  if (const Status status = apply_to(model, tears); !status) return status;
   if (const Status status = choose_tensions(model, pose, source->thicknesses); !status)
     return status;
-  for (std::size_t i = 0; i < sutures; ++i)
-    if (const Status status = model.instance.redo(); !status) return status;
+  if (const Status status = apply_to(model, history.subspan(tears.size())); !status) return status;
   return model;
 }
 

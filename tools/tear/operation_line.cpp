@@ -21,7 +21,8 @@ std::string operation_line(const OperationOutcome& outcome, const std::optional<
             (place->bone.empty() ? "" : " on '" + place->bone + "'");
   const TearReport& tear = outcome.tear;
   if (opens_surface(outcome)) {
-    line += ": " + counted(tear.faces_crossed, "face", "faces") + " crossed";
+    line += outcome.threads > 0 ? ": " + counted(outcome.threads, "thread", "threads")
+                                : ": " + counted(tear.faces_crossed, "face", "faces") + " crossed";
     // A bore takes surface away and opens no line.
     if (tear.length_posed > 0) line += printed(", %.4g m long", tear.length_posed);
     if (tear.area_removed_posed > 0) line += printed(", %.4g m2 removed", tear.area_removed_posed);
