@@ -1056,7 +1056,7 @@ typedef struct sunder_force_tearing {
 
 /* A thread of a suture, between vertices of its two lips; SUNDER_NONE: an end holds nothing any
  * more. */
-typedef struct sunder_thread {
+typedef struct sunder_suture_thread {
   uint32_t left_mesh;
   uint32_t left_vertex;
   uint32_t right_mesh;
@@ -1064,12 +1064,13 @@ typedef struct sunder_thread {
   double newtons; /* with which it pulled its lips together in the last update */
   uint32_t is_broken;
   uint32_t reserved;
-} sunder_thread;
+} sunder_suture_thread;
 
 SUNDER_C_API sunder_force_tearing_options sunder_default_force_tearing_options(void);
 /* All threads, in the order in which they were tied; valid until the next call on the scene. */
 SUNDER_C_API sunder_status sunder_get_threads(sunder_scene scene, sunder_instance instance,
-                                              const sunder_thread** threads, uint32_t* count);
+                                              const sunder_suture_thread** threads,
+                                              uint32_t* count);
 
 /* These need a soft instance after sunder_prepare_to_tear() or its first operation: else
  * SUNDER_NOT_FOUND. */

@@ -31,7 +31,7 @@ struct SceneObject : Object {
   // Memory of views.
   std::vector<sunder_result> results;
   std::vector<sunder_instance> drawn;
-  std::vector<sunder_thread> threads;
+  std::vector<sunder_suture_thread> threads;
   MeshView mesh_view;
   std::vector<float> texels;
 };

@@ -72,13 +72,13 @@ sunder_status sunder_get_tissue(sunder_scene scene, sunder_instance instance,
 }
 
 sunder_status sunder_get_threads(sunder_scene scene, sunder_instance instance,
-                                 const sunder_thread** threads, uint32_t* count) {
+                                 const sunder_suture_thread** threads, uint32_t* count) {
   return guarded([&]() -> sunder_status {
     Found found;
     SUNDER_C_TRY(find_instance(scene, instance, found));
     if (threads == nullptr) return null_pointer("threads");
     if (count == nullptr) return null_pointer("count");
-    std::vector<sunder_thread>& read = found.scene->threads;
+    std::vector<sunder_suture_thread>& read = found.scene->threads;
     read.clear();
     const sunder::TornModel* const model = found.instance->model();
     std::span<const sunder::ThreadLoad> loads;

@@ -19,7 +19,7 @@ TEST(CTissue, threads_hold_vertices_of_both_lips) {
   cut.normal[1] = 1.0;
   cut.normal[2] = 0.0;
   cut.point[1] = 0.51;
-  const sunder_thread* threads = nullptr;
+  const sunder_suture_thread* threads = nullptr;
   std::uint32_t count = 7;
   EXPECT_DONE(sunder_get_threads(twins.c_scene, twins.c_id, &threads, &count));
   EXPECT_EQ(count, 0u);
