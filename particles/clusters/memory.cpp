@@ -55,8 +55,8 @@ std::size_t Structure::memory_bytes() const {
   std::size_t bytes = sizeof(Structure) + bytes_of(points) + points.memberships.memory_bytes() +
                       bytes_of(points.older_lips) + bytes_of(authored.of_points) +
                       bytes_of(vertex_points.of_mesh) + bytes_of(members.joined) + bytes_of(lips) +
-                      bytes_of(tears.threads) + bytes_of(dirty) + bytes_of(scratch) + gradients->memory_bytes() +
-                      character.border.memory_bytes();
+                      bytes_of(tears.threads) + bytes_of(dirty) + bytes_of(scratch) +
+                      gradients->memory_bytes() + character.border.memory_bytes();
   if (members.decomposed.use_count() == 1)
     bytes += bytes_of(members.decomposed->first) + bytes_of(members.decomposed->points);
   for (const Particle& particle : particles) bytes += bytes_of(particle);
