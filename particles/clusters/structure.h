@@ -63,8 +63,8 @@ struct TearLog {
   /// because the redone values are those of the work as it was.
   std::shared_ptr<const PendingWork> waiting;
   std::vector<SutureThread> threads;  ///< Of the model when it was last followed.
-  Index triangle_count = 0;  ///< Of the surface when it was last followed.
-  bool is_broken = false;    ///< Memory ran out in the middle of an update.
+  Index triangle_count = 0;           ///< Of the surface when it was last followed.
+  bool is_broken = false;             ///< Memory ran out in the middle of an update.
 };
 
 /// The data of a ParticleSet.
