@@ -18,7 +18,7 @@ struct ChosenWounds {
   [[nodiscard]] Status validate(const char* what) const;
 };
 
-/// Which lips are meant, of those that have others on them: per lip.
+/// Marks the lips of these wounds, of those that have others on them. One entry per lip.
 [[nodiscard]] ScratchVector<bool> choose_lips(const ChosenWounds& wounds, std::span<const Lip> lips,
                                               std::span<const LipOverlap> overlaps,
                                               const Workpiece& work);

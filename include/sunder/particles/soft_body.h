@@ -76,7 +76,7 @@ struct ContactReport {
   double deepest = 0.0;      ///< Largest depth of a contact point inside a collider, metres.
 };
 
-/// What a thread of a suture bears.
+/// The load of a thread of a suture.
 struct ThreadLoad {
   double newtons = 0.0;    ///< With which it pulled its lips together in the last step.
   bool is_broken = false;  ///< It pulls no more. Undo and redo of the suture tie it anew.
@@ -238,8 +238,8 @@ class SUNDER_API SoftBody {
   std::unique_ptr<particles::BodyState> state_;
 };
 
-/// What threads bear: one entry per thread of threads_of(), as the last step or displacements()
-/// followed them. Valid until the next call on the body that is not const.
+/// The loads of all threads of sutures, in the order of threads_of(), after the last step or
+/// displacements(). Valid until the next call on the body that is not const.
 [[nodiscard]] SUNDER_API std::span<const ThreadLoad> thread_loads(const SoftBody& body);
 
 }  // namespace sunder
