@@ -31,7 +31,7 @@ void add_closing(CLI::App& verb, const char* name, const std::string& descriptio
           name, [](const std::vector<std::string>&) {}, description)
       ->allow_extra_args(false)
       ->type_name("all|X/Y/Z[,FIELD=VALUE...]")
-      ->group("Aimed operations");
+      ->group("Closing wounds");
 }
 
 /// "fields: from, radius": those besides the share, which follows the bone.

@@ -8,7 +8,7 @@ namespace sunder::tools {
 namespace {
 
 constexpr const char* kDetails = "Details";
-constexpr const char* kGroupsOfDetails[] = {kDetails, "A robot"};
+constexpr const char* kGroupsOfDetails[] = {kDetails, "A robot", "Closing wounds"};
 constexpr const char* kDetailedOptions[] = {
     "--animated-pieces",  "--count-topology", "--import-seconds", "--limits",     "--max-error",
     "--max-memory",       "--max-seconds",    "--max-vertices",   "--memory",     "--package-root",
