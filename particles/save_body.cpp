@@ -19,7 +19,7 @@ using particles::Motion;
 using particles::Tape;
 
 constexpr double kMostKeptStrain = 1e3;  // the largest limit of a material
-constexpr std::uint32_t kBodyVersion = 8;
+constexpr std::uint32_t kBodyVersion = 9;
 
 void describe(Tape& tape, SoftMaterial& of) {
   for (double* value :

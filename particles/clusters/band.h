@@ -80,7 +80,10 @@ struct Band {
   /// Members that the front did not reach, which the particle loses; the last first.
   std::vector<Index> unreached;
   bool is_grown = false;  ///< Whether `unreached` was found.
-  PendingWork pending;    ///< Other work, which follows.
+  /// Before the front goes on: a point that gets a particle of its own, and how many points the
+  /// front of this particle has met, which RepairScratch::met lists.
+  Index uncovered = kNone, met_count = 0;
+  PendingWork pending;  ///< Other work, which follows.
 };
 
 }  // namespace sunder::particles

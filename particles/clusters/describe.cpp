@@ -285,6 +285,8 @@ void describe(Tape& tape, Band& of) {
   tape(of.growing);
   tape.all(of.unreached);
   tape(of.is_grown);
+  tape(of.uncovered);
+  tape(of.met_count);
   describe(tape, of.pending);
 }
 

@@ -33,7 +33,7 @@ std::size_t bytes_of(const Change& change) {
 
 std::size_t bytes_of(const RepairScratch& scratch) {
   std::size_t bytes = scratch.front.memory_bytes() + scratch.band_front.memory_bytes() +
-                      bytes_of(scratch.beside) + bytes_of(scratch.work_of) +
+                      bytes_of(scratch.met) + bytes_of(scratch.beside) + bytes_of(scratch.work_of) +
                       bytes_of(scratch.score_of) + bytes_of(scratch.area_change) +
                       bytes_of(scratch.edit.works) + bytes_of(scratch.edit.memberships) +
                       bytes_of(scratch.edit.counted) + bytes_of(scratch.edit.by_particle) +

@@ -14,6 +14,12 @@ struct BesideLip {
   Index chain = 0, place = 0;
 };
 
+/// A point that a front has met.
+struct MetPoint {
+  Index point = 0;
+  float distance = 0;
+};
+
 /// The arrays of a StructureEdit. The next step of settling uses their memory again, which costs
 /// less than to get a megabyte from the system in each frame.
 struct EditArrays {
@@ -43,6 +49,7 @@ struct EditArrays {
 /// Memory that repairs reuse.
 struct RepairScratch {
   SurfaceFront front;             ///< From the seed of one particle.
+  std::vector<MetPoint> met;      ///< By `front`, if it is that of a point that is not covered.
   SurfaceFront band_front;        ///< From the lips: each settle() continues it.
   std::vector<BesideLip> beside;  ///< Per point that band_front has reached.
   Marks worked;                   ///< Points that the current call changes.

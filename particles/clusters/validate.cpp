@@ -349,6 +349,11 @@ void Check::band(const Counts& in) {
   const Band& of = *structure_.tears.band;
   require(of.tear < in.tears, "the tear of a band");
   require(of.growing == kNone || of.growing < in.particles, "the particle that grows");
+  require(of.uncovered == kNone ||
+              (of.uncovered < in.points && model_.surface().point_corner[of.uncovered] != kNone),
+          "a point that is not covered");
+  require(of.met_count <= (of.uncovered == kNone ? 0 : in.points),
+          "the points that a front has met");
   for (const Index point : of.lips) require(point < in.points, "a lip of a band");
   for (const Index point : of.unreached) require(point < in.points, "a point to be left");
   if (!status_) return;

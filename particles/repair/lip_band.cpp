@@ -45,7 +45,7 @@ void spend(Index visited, Index& points) { points -= std::min(points, visited); 
 /// Continues the front from the lips. @param points  at most; reduced by those visited.
 void widen_front(StructureEdit& edit, Index& points) {
   Structure& structure = edit.structure();
-  const Band& band = *structure.tears.band;
+  Band& band = *structure.tears.band;
   RepairScratch& scratch = structure.scratch;
   scratch.band_front.run(edit.ring(), [&](Index point, float distance, Index from) {
     if (from != kNone) {
@@ -55,11 +55,11 @@ void widen_front(StructureEdit& edit, Index& points) {
         const BandPoint at = {point, chain.places[beside.place], distance};
         visit(edit, band.chains, chain, at);
         spend(cover_row(edit, chain, at), points);
-        spend(cover(edit, point), points);  // thousands, where faces are small
+        if (!is_covered(edit, point)) band.uncovered = point;
       }
     }
     spend(1, points);
-    return points > 0;
+    return points > 0 && band.uncovered == kNone;
   });
 }
 
@@ -123,6 +123,7 @@ Index begin_front(StructureEdit& edit) {
   RepairScratch& scratch = structure.scratch;
   Band& band = *structure.tears.band;
   band.is_begun = true;
+  band.uncovered = kNone;
   std::erase_if(band.lips,
                 [&](Index point) { return edit.surface().point_corner[point] == kNone; });
   band.chains = find_lip_chains(edit.border(), structure, edit.tear(), band.lips);
@@ -155,7 +156,7 @@ PendingWork work_of(const Band& band, const Structure& structure) {
   PendingWork work = band.pending;
   if (band.growing != kNone)
     add_to_grow(work, {&band.growing, 1});
-  else if (!band.is_begun || !structure.scratch.band_front.is_done())
+  else if (!band.is_begun || !structure.scratch.band_front.is_done() || band.uncovered != kNone)
     add_lips(work, band.tear, band.lips);
   return work;
 }
@@ -189,8 +190,8 @@ Band& renew_band(Structure& structure, Index tear) {
 
 [[nodiscard]] bool is_complete(const Structure& structure) {
   const Band& band = *structure.tears.band;
-  return band.is_begun && structure.scratch.band_front.is_done() && band.growing == kNone &&
-         band.pending.empty();
+  return band.is_begun && structure.scratch.band_front.is_done() && band.uncovered == kNone &&
+         band.growing == kNone && band.pending.empty();
 }
 
 }  // namespace
@@ -244,6 +245,8 @@ Index widen_band(StructureEdit& edit, Index points) {
   while (points > 0 && band->tear == edit.tear()) {
     if (!band->is_begun)
       points -= std::min(points, begin_front(edit));
+    else if (band->uncovered != kNone)
+      go_on_covering(edit, points);
     else if (band->growing != kNone)
       grow(edit, points);
     else if (!structure.scratch.band_front.is_done())

@@ -56,6 +56,7 @@ void follow_operation(const TornModel& model, Structure& structure,
                       std::span<const ChangeRecord> changes) {
   begin_change(structure);
   TearLog& tears = structure.tears;
+  if (tears.band) tears.band->met_count = 0;  // the front may have met what is no longer there
   StructureEdit edit(model, structure, tears.done.back(),
                      static_cast<Index>(tears.done.size() - 1));
   const RewrittenFaces rewritten = find_rewritten_faces(model, structure, changes);

@@ -248,6 +248,28 @@ TEST(saved_particles, go_on_while_the_surface_beside_a_lip_is_settled) {
   }
 }
 
+TEST(saved_particles, go_on_amid_the_points_of_one_particle) {
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const Shared shared(test::random_character(random));
+    Instance first(shared.character, shared.asset, shared.pose),
+        second(shared.character, shared.asset, shared.pose);
+    ChangeRecord change;
+    if (!test::play(*first.model, test::random_operation(*first.model, random), &change)) continue;
+    ASSERT_TRUE(first.set->follow(*first.model, {&change, 1}));
+    for (std::uint32_t steps = random.index(60); steps > 0; --steps)
+      (void)first.set->settle(*first.model, 2);
+    ASSERT_TRUE(first.body->step(*first.model, shared.pose, 1.0 / 60, 0));
+    ASSERT_NO_FATAL_FAILURE(restore(shared, first, shared.pose, second));
+    for (bool has_more = true; has_more;) {
+      has_more = first.set->settle(*first.model, 2);
+      ASSERT_EQ(second.set->settle(*second.model, 2), has_more);
+    }
+    ASSERT_NO_FATAL_FAILURE(expect_same(first, second, shared.pose));
+  }
+}
+
 /// Replaces one number of a state by an odd one, or one from elsewhere.
 StateArrays damaged(StateArrays state, Random& random) {
   constexpr std::uint32_t kOdd[] = {0, 1, 7, 1000, 0x7fffffff, kNone - 1, kNone};
