@@ -1,6 +1,6 @@
 // Plans of 100 random curves on ten rigs that move, by three arms, beside inverse kinematics for
-// each frame and a search that shares no code. bench_plan [--cases N] [--summary]. Prints the
-// figures of docs/plan.md.
+// each frame and a search that shares no code. bench_plan [--cases N] [--first SEED] [--summary].
+// Prints the figures of docs/plan.md.
 
 #include <sunder/plan/plan.h>
 #include <sunder/skinning/pose.h>
@@ -19,6 +19,8 @@
 #include "bench/harness/cpu_seconds.h"
 #include "bench/harness/json_object.h"
 #include "bench/plan/frame_ik.h"
+#include "bench/plan/link_depth.h"
+#include "bench/plan/motion_search.h"
 #include "bench/plan/pattern_search.h"
 #include "bench/plan/plan_cases.h"
 #include "pipeline/plan/measure_wound.h"
@@ -63,30 +65,18 @@ bool leaves_limits(const PlanTool& tool, const RobotTrajectory& trajectory) {
   return false;
 }
 
-/// How deep a vertex of a link other than the blade's comes below the surface, at 200 times: by the
-/// nearest place of the surface, which plans do not use.
+/// How deep a vertex of a link other than the blade's comes below the surface, at 200 times.
 double deepest_vertex(const PlanCase& of, const RobotTrajectory& trajectory) {
   const auto motion = RobotMotion::create(of.tool.robot, trajectory);
-  const auto model = TornModel::create(of.rig.character);
-  auto query = SurfaceQuery::create(*model);
+  LinkDepth links(of);
   std::vector<Affine3d> frames(of.tool.robot.links.size());
   double deepest = 0;
-  constexpr int kTimes = 200, kMostVertices = 60;
+  constexpr int kTimes = 200;
   for (int i = 0; i <= kTimes; ++i) {
     const double time = motion->last_time() * i / kTimes;
-    const auto pose = plan::pose_at(*of.rig.character, of.timing, time);
-    if (!pose || !query->set_pose(*pose)) return std::numeric_limits<double>::infinity();
     if (!motion->pose_at(time, frames, of.tool.world_from_root))
       return std::numeric_limits<double>::infinity();
-    for (std::uint32_t link = 0; link < frames.size(); ++link) {
-      if (link == of.tool.blade.link) continue;
-      const std::size_t stride = of.vertices[link].size() / kMostVertices + 1;
-      for (std::size_t v = 0; v < of.vertices[link].size(); v += stride) {
-        const auto found =
-            query->find_nearest(frames[link] * of.vertices[link][v], 0.5 * of.rig.size);
-        if (found && found->has_value()) deepest = std::max(deepest, (*found)->depth);
-      }
-    }
+    deepest = std::max(deepest, links.deepest_vertex(time, frames));
   }
   return deepest;
 }
@@ -229,8 +219,8 @@ void run_case(const PlanCase& of, std::uint64_t seed, bool is_verbose, Figures& 
   const PlannedMotion& planned = **result;
   const PlanReport& report = planned.report;
   const auto samples = plan::sample_target(*of.rig.character, *path, of.timing, 200);
-  const bool is_reachable =
-      PatternSearch(of.tool, options.tolerance).follow(*samples, of.middle_values);
+  LinkDepth links(of);
+  const bool is_reachable = !MotionSearch(of, options.tolerance, links).find(*samples).empty();
   const bool is_ok = report.is_reachable && report.hausdorff <= options.tolerance;
   figures.reachable += is_reachable ? 1 : 0;
   figures.reached += is_reachable && is_ok ? 1 : 0;
@@ -271,6 +261,7 @@ void run_case(const PlanCase& of, std::uint64_t seed, bool is_verbose, Figures& 
     std::printf("  [%d %s %.2f]", static_cast<int>(obstacle.kind), obstacle.value.c_str(),
                 obstacle.at);
   std::printf("%s\n", report.is_reachable ? "" : is_true ? " true" : " FALSE");
+  std::fflush(stdout);
 }
 
 double share(int part, int of) {
@@ -305,14 +296,17 @@ void print_summary(const Figures& figures) {
 int main(int argc, char** argv) {
   int wanted = 100;
   bool is_summary = false;
+  std::uint64_t first = 0;
   for (int i = 1; i < argc; ++i) {
     if (std::strcmp(argv[i], "--summary") == 0) is_summary = true;
+    if (std::strcmp(argv[i], "--first") == 0 && i + 1 < argc)
+      first = static_cast<std::uint64_t>(std::atoi(argv[++i]));
     if (std::strcmp(argv[i], "--cases") == 0 && i + 1 < argc) wanted = std::atoi(argv[++i]);
   }
   const std::vector<MovingRig> rigs = moving_rigs();
   const std::vector<Arm> known = arms();
   Figures figures;
-  for (std::uint64_t seed = 0; figures.cases < wanted && seed < 10'000; ++seed)
+  for (std::uint64_t seed = first; figures.cases < wanted && seed < 10'000; ++seed)
     if (const auto made = make_case(rigs, known, seed)) run_case(*made, seed, !is_summary, figures);
   print_summary(figures);
 }
