@@ -98,48 +98,21 @@ double frame_hausdorff(const PlanCase& of, const plan::TargetPath& path, const P
   return measured ? measured->hausdorff : std::numeric_limits<double>::infinity();
 }
 
-/// Where source triangles of places are in a pose, by the reference of the tests.
-std::vector<Vec3d> posed_places(const Character& character, const std::vector<SurfaceAnchor>& of,
-                                const ModelPose& pose) {
-  std::vector<std::vector<Vec3d>> posed;
-  for (std::uint32_t mesh = 0; mesh < character.meshes.size(); ++mesh)
-    posed.push_back(test::posed_positions(character, mesh, pose));
-  std::vector<Vec3d> places;
-  for (const SurfaceAnchor& anchor : of) {
-    Vec3d place = Vec3d::Zero();
-    const Triangle& triangle = character.meshes[anchor.mesh].triangles[anchor.birth.triangle];
-    for (std::size_t i = 0; i < 3; ++i)
-      place += anchor.birth.barycentric[i] * posed[anchor.mesh][triangle[i]];
-    places.push_back(place);
-  }
-  return places;
-}
-
-/// Whether a motion keeps its limits, and a vertex that it tears is far from the curve, or a place
-/// of the curve far from all of them.
-bool tear_leaves_curve(const PlanCase& of, const PlannedMotion& planned,
-                       const plan::TargetPath& path, double tolerance) {
-  if (planned.tear.stroke.empty() || leaves_limits(of.tool, planned.trajectory)) return false;
-  auto model = TornModel::create(of.rig.character);
-  if (!model || !apply_operation(*model, planned.tear)) return false;
-  std::vector<SurfaceAnchor> births;
-  for (std::uint32_t mesh = 0; mesh < of.rig.character->meshes.size(); ++mesh)
-    for (std::uint32_t v = of.rig.character->meshes[mesh].vertex_count();
-         v < model->character().meshes[mesh].vertex_count(); ++v)
-      births.push_back({mesh, model->birth(mesh, v)});
-  const auto pose = plan::pose_at(*of.rig.character, of.timing, planned.report.cut_begins);
-  const auto lips = posed_places(*of.rig.character, births, *pose);
-  const auto curve = posed_places(*of.rig.character, path.anchors(), *pose);
-  const auto farthest = [](const std::vector<Vec3d>& from, const std::vector<Vec3d>& to) {
-    double most = 0;
-    for (const Vec3d& place : from) {
-      double least = std::numeric_limits<double>::infinity();
-      for (const Vec3d& other : to) least = std::min(least, (place - other).norm());
-      most = std::max(most, least);
-    }
-    return most;
-  };
-  return farthest(lips, curve) > tolerance || farthest(curve, lips) > tolerance;
+/// Whether a motion tears along the curve.
+bool makes_wound(const PlanCase& of, const RobotTrajectory& trajectory,
+                 const plan::TargetPath& path, double tolerance) {
+  const auto motion = RobotMotion::create(of.tool.robot, trajectory);
+  if (!motion) return false;
+  SweepOptions options;
+  options.spacing = 0.002 * of.rig.size;
+  options.seconds = 1.0 / 60;
+  const auto sweep = sweep_blade(*motion, of.tool.blade, of.tool.world_from_root, options);
+  if (!sweep) return false;
+  const auto tear = tear_of_sweep(*sweep, of.timing.pose, of.timing.clip_speed);
+  const auto pose = plan::pose_at(*of.rig.character, of.timing, of.timing.approach);
+  if (!tear || tear->stroke.empty() || !pose) return false;
+  const auto measured = plan::measure_wound(of.rig.character, path, *tear, *pose);
+  return measured && measured->hausdorff <= tolerance;
 }
 
 /// Whether the obstacles that a plan names are what stops it: without the named limits a search
@@ -150,15 +123,18 @@ bool are_true(const PlanCase& of, const PlanOptions& options, const PlannedMotio
   const PlanReport& report = planned.report;
   const PlanObstacle::Kind kind = report.obstacles.front().kind;
   if (kind == PlanObstacle::Kind::wound)
-    return tear_leaves_curve(of, planned, path, options.tolerance);
+    return !leaves_limits(of.tool, planned.trajectory) &&
+           !makes_wound(of, planned.trajectory, path, options.tolerance);
   PlanTool freed = of.tool;
-  if (kind == PlanObstacle::Kind::collision) {  // without that link's shape the plan gets farther
+  if (kind == PlanObstacle::Kind::collision) {  // without those links' shapes nothing else is met
     std::erase_if(freed.shapes, [&](const BoneCollider& shape) {
-      return freed.robot.links[shape.bone].name == report.obstacles.front().value;
+      return std::any_of(
+          report.obstacles.begin(), report.obstacles.end(), [&](const PlanObstacle& named) {
+            return named.kind == kind && freed.robot.links[shape.bone].name == named.value;
+          });
     });
     const auto again = plan_motion(of.rig.character, of.target, of.timing, freed, options);
-    return again && (again->report.is_reachable ||
-                     again->report.obstacles.front().value != report.obstacles.front().value);
+    return again && (again->report.is_reachable || again->report.obstacles.front().kind != kind);
   }
   const bool is_reach = kind == PlanObstacle::Kind::reach;
   for (RobotValue& value : freed.robot.values) {
@@ -220,7 +196,10 @@ void run_case(const PlanCase& of, std::uint64_t seed, bool is_verbose, Figures& 
   const PlanReport& report = planned.report;
   const auto samples = plan::sample_target(*of.rig.character, *path, of.timing, 200);
   LinkDepth links(of);
-  const bool is_reachable = !MotionSearch(of, options.tolerance, links).find(*samples).empty();
+  const bool is_reachable =
+      MotionSearch(of, options.tolerance, links).find(*samples, [&](const RobotTrajectory& motion) {
+        return makes_wound(of, motion, *path, options.tolerance);
+      });
   const bool is_ok = report.is_reachable && report.hausdorff <= options.tolerance;
   figures.reachable += is_reachable ? 1 : 0;
   figures.reached += is_reachable && is_ok ? 1 : 0;

@@ -12,8 +12,8 @@
 namespace sunder::bench {
 namespace {
 
-constexpr std::size_t kMostVertices = 60;   ///< Of a link.
-constexpr std::size_t kPlaces = 5000;       ///< Random ones on faces, besides all vertices.
+constexpr std::size_t kMostVertices = 60;  ///< Of a link.
+constexpr std::size_t kPlaces = 5000;      ///< Random ones on faces, besides all vertices.
 constexpr std::size_t kMostMoments = 256;  ///< That are kept.
 
 std::vector<std::vector<Vec3d>> all_posed(const Character& character, const ModelPose& pose) {
@@ -134,6 +134,18 @@ double LinkDepth::least_distance(double time, std::span<const Affine3d> frames, 
     if (found && found->has_value() && (*found)->depth > 0) return -(*found)->depth;
   }
   return least;
+}
+
+bool LinkDepth::is_blade_outside(double time, const Vec3d& base, const Vec3d& entry) {
+  Moment& moment = at(time);
+  if (!moment.is_posed) return false;
+  constexpr int kSteps = 10;
+  for (int i = 1; i <= kSteps; ++i) {
+    const Vec3d point = entry + static_cast<double>(i) / kSteps * (base - entry);
+    const auto found = moment.query.find_nearest(point, of_.rig.size);
+    if (found && found->has_value() && (*found)->depth > 0) return false;
+  }
+  return true;
 }
 
 }  // namespace sunder::bench

@@ -28,6 +28,9 @@ class LinkDepth {
   /// below 0 inside. The blade's link is left out.
   double least_distance(double time, std::span<const Affine3d> frames, double most);
 
+  /// Whether a blade is above the surface between its base and a place at which it enters it.
+  bool is_blade_outside(double time, const Vec3d& base, const Vec3d& entry);
+
  private:
   /// The rig at a time.
   struct Moment {

@@ -10,6 +10,10 @@
 
 namespace sunder::plan {
 
+/// Whether the blade passes the surface within a distance of the sample, about as deep as it shall.
+[[nodiscard]] bool is_reached(BladeChain& chain, const TargetSample& sample, const Values& values,
+                              double tolerance);
+
 /// The longest part of the cut in which the blade passes the surface within a distance of the
 /// curve, about as deep as it shall.
 struct ReachedPart {

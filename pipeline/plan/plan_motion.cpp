@@ -10,6 +10,7 @@
 #include "core/internal/out_of_memory.h"
 #include "pipeline/plan/blade_chain.h"
 #include "pipeline/plan/check_inputs.h"
+#include "pipeline/plan/choose_tracks.h"
 #include "pipeline/plan/clearance.h"
 #include "pipeline/plan/find_obstacles.h"
 #include "pipeline/plan/fit_spline.h"
@@ -86,30 +87,74 @@ class Planner {
     Result<Clearance> clearance = Clearance::create(*character_, tool_, timing_, samples_);
     if (!clearance) return clearance.error();
     clearance_ = std::move(*clearance);
-    const std::vector<std::vector<Values>> tracks = tracks_of(chain);
-    // What is told about the best track, unless a later one is followed.
-    PlannedMotion first;
+    return try_tracks(path, chain);
+  }
+
+  /// Follows tracks until one makes the curve: those that keep the angle, then one that leans.
+  Result<bool> try_tracks(const TargetPath& path, BladeChain& chain) {
+    const TrackSearch search{
+        samples_,      scales_, limits_, *clearance_, options_.clearance, planned_.report.tolerance,
+        options_.seeds};
+    std::vector<Track> tracks = follow_tracks(chain, search);
+    // What is told about the first track, unless a later one is followed.
+    std::optional<PlannedMotion> first;
     double first_slowdown = 1;
-    for (std::size_t i = 0; i < tracks.size(); ++i) {
-      if (const Status status = follow(tracks[i], path, chain); !status) return status;
-      if (planned_.report.is_reachable) return true;
-      if (i == 0) {
+    const auto makes_it = [&](const Track& track) -> Result<bool> {
+      if (const Status status = follow(track, path, chain); !status) return status;
+      if (!planned_.report.is_reachable && !first) {
         first = planned_;
         first_slowdown = slowdown_;
       }
+      return planned_.report.is_reachable;
+    };
+    for (const Track& track : tracks) {
+      if (!track.is_clean()) continue;
+      const Result<bool> is_made = makes_it(track);
+      if (!is_made || *is_made) return is_made;
     }
-    planned_ = std::move(first);
+    for (const Track& track : walk_freely(chain, search)) {
+      const Result<bool> is_made = makes_it(track);
+      if (!is_made || *is_made) return is_made;
+    }
+    if (!first) {
+      if (check_reach(chain, tracks[0].values)) name_links(chain, tracks[0]);
+      slowdown_ = 1;
+      return false;
+    }
+    planned_ = std::move(*first);
     slowdown_ = first_slowdown;
     return false;
   }
 
+  /// Names the links that are inside of the character on a track.
+  void name_links(BladeChain& chain, const Track& track) {
+    PlanReport& report = planned_.report;
+    report.is_reachable = false;
+    report.obstacles.clear();
+    const auto values_at = [&](double time) {  // of a sample
+      const auto at =
+          std::lower_bound(samples_.begin(), samples_.end() - 1, time,
+                           [](const TargetSample& sample, double of) { return sample.time < of; });
+      return track.values[static_cast<std::size_t>(at - samples_.begin())];
+    };
+    for (const NearPlace& near : clearance_->find(chain, values_at, 0.0)) {
+      const std::string& name = tool_.robot.links[tool_.shapes[near.shape].bone].name;
+      const bool is_known =
+          std::any_of(report.obstacles.begin(), report.obstacles.end(),
+                      [&](const PlanObstacle& known) { return known.value == name; });
+      if (!is_known)
+        report.obstacles.push_back(
+            {PlanObstacle::Kind::collision, name, Timeline(timing_).share_at(near.time)});
+    }
+  }
+
   /// Fits a spline to a track, and tears. The report says whether the curve is made.
-  Status follow(const std::vector<Values>& start, const TargetPath& path, BladeChain& chain) {
+  Status follow(const Track& track, const TargetPath& path, BladeChain& chain) {
     PlanReport& report = planned_.report;
     report.obstacles.clear();
     slowdown_ = 1;
-    if (!check_reach(chain, start)) return {};
-    Result<JointSpline> spline = fit(chain, start);
+    if (!check_reach(chain, track.values)) return {};
+    Result<JointSpline> spline = fit(chain, track);
     if (!spline) return spline.error();
     planned_.trajectory = trajectory_of(*spline, chain, Timeline(timing_), limits_.values);
     check_rates(chain);
@@ -124,14 +169,17 @@ class Planner {
   }
 
   /// Fits until the links keep their distance, or for some rounds.
-  Result<JointSpline> fit(BladeChain& chain, const std::vector<Values>& start) {
+  Result<JointSpline> fit(BladeChain& chain, const Track& track) {
     PlanReport& report = planned_.report;
     KeptAway kept_away{tool_.shapes, {}, options_.clearance};
     report.least_clearance = std::numeric_limits<double>::infinity();
-    JointSpline spline = spline_through(start, samples_, Timeline(timing_).knots(), limits_.values);
+    std::vector<TargetSample> wanted = samples_;
+    for (std::size_t i = 0; i < wanted.size(); ++i) wanted[i].handle = track.handles[i];
+    JointSpline spline =
+        spline_through(track.values, wanted, Timeline(timing_).knots(), limits_.values);
     for (int round = 0;; ++round) {
       Result<JointSpline> fitted =
-          fit_spline(chain, samples_, scales_, limits_, kept_away, std::move(spline));
+          fit_spline(chain, wanted, scales_, limits_, kept_away, std::move(spline));
       if (!fitted || !clearance_->is_needed()) return fitted;
       spline = std::move(*fitted);
       const std::vector<NearPlace> near = clearance_->find(
@@ -150,32 +198,6 @@ class Planner {
       }
       kept_away.places.insert(kept_away.places.end(), near.begin(), near.end());
     }
-  }
-
-  /// The tracks, those that keep the links out of the character first.
-  std::vector<std::vector<Values>> tracks_of(BladeChain& chain) const {
-    std::vector<std::vector<Values>> tracks =
-        track_samples(chain, samples_, scales_, limits_, options_.seeds);
-    if (!clearance_->is_needed()) return tracks;
-    std::vector<std::pair<double, std::size_t>> order;
-    for (std::size_t i = 0; i < tracks.size(); ++i) {
-      double inside = 0;
-      for (const NearPlace& near : clearance_->find(
-               chain,
-               [&](double time) {  // of a sample
-                 const auto at = std::lower_bound(
-                     samples_.begin(), samples_.end() - 1, time,
-                     [](const TargetSample& sample, double of) { return sample.time < of; });
-                 return tracks[i][static_cast<std::size_t>(at - samples_.begin())];
-               },
-               0.0))
-        inside -= near.distance;
-      order.emplace_back(inside, i);
-    }
-    std::stable_sort(order.begin(), order.end());
-    std::vector<std::vector<Values>> sorted;
-    for (const auto& [inside, i] : order) sorted.push_back(std::move(tracks[i]));
-    return sorted;
   }
 
   /// @return whether inverse kinematics reach all of the curve; otherwise the report says why not.
