@@ -115,64 +115,67 @@ bool makes_wound(const PlanCase& of, const RobotTrajectory& trajectory,
   return measured && measured->hausdorff <= tolerance;
 }
 
-/// Whether the obstacles that a plan names are what stops it: without the named limits a search
-/// that shares no code, or a further plan, gets farther; and what is out of reach stays so for
-/// random searches without limits.
+bool is_named(const PlanReport& report, PlanObstacle::Kind kind, const std::string& name) {
+  return std::any_of(
+      report.obstacles.begin(), report.obstacles.end(),
+      [&](const PlanObstacle& named) { return named.kind == kind && named.value == name; });
+}
+
+/// Whether a further plan, without the links and the limits of speed that are named, makes the
+/// curve or meets an obstacle of a kind that was not named.
+bool gets_farther(const PlanCase& of, const PlanOptions& options, const PlanReport& report) {
+  using Kind = PlanObstacle::Kind;
+  PlanTool freed = of.tool;
+  std::erase_if(freed.shapes, [&](const BoneCollider& shape) {
+    return is_named(report, Kind::collision, freed.robot.links[shape.bone].name);
+  });
+  for (const RobotValue& value : freed.robot.values)
+    if (is_named(report, Kind::joint_speed, value.name))
+      freed.robot.joints[value.joint].velocity *= 10;
+  const auto again = plan_motion(of.rig.character, of.target, of.timing, freed, options);
+  if (!again) return false;
+  if (again->report.is_reachable) return true;
+  const Kind next = again->report.obstacles.front().kind;
+  return std::none_of(report.obstacles.begin(), report.obstacles.end(),
+                      [&](const PlanObstacle& named) { return named.kind == next; });
+}
+
+/// Whether a search that shares no code reaches the place that is named without the limits that
+/// are named, or for `reach` without any limit.
+bool is_reached_without(const PlanCase& of, double tolerance, const PlanReport& report,
+                        const std::vector<plan::TargetSample>& samples) {
+  const PlanObstacle& first = report.obstacles.front();
+  std::vector<double> lower, upper;
+  for (const RobotValue& value : of.tool.robot.values) {
+    const bool is_free = first.kind == PlanObstacle::Kind::reach ||
+                         is_named(report, PlanObstacle::Kind::joint_limit, value.name);
+    const double more = is_free ? 2 * std::min(value.upper - value.lower, 6.4) : 0;
+    lower.push_back(value.lower - more);
+    upper.push_back(value.upper + more);
+  }
+  const auto away = [&](const plan::TargetSample& sample) {
+    return std::abs(sample.share - first.at) + (sample.depth > 0 ? 0 : 10);
+  };
+  const auto nearest = std::min_element(
+      samples.begin(), samples.end(),
+      [&](const plan::TargetSample& a, const plan::TargetSample& b) { return away(a) < away(b); });
+  return PatternSearch(of.tool, tolerance).reach_from_anywhere(*nearest, lower, upper, 60);
+}
+
+/// Whether the obstacles that a plan names are what stops it.
 bool are_true(const PlanCase& of, const PlanOptions& options, const PlannedMotion& planned,
               const plan::TargetPath& path, const std::vector<plan::TargetSample>& samples) {
   const PlanReport& report = planned.report;
-  const PlanObstacle::Kind kind = report.obstacles.front().kind;
-  if (kind == PlanObstacle::Kind::wound)
-    return !leaves_limits(of.tool, planned.trajectory) &&
-           !makes_wound(of, planned.trajectory, path, options.tolerance);
-  PlanTool freed = of.tool;
-  if (kind == PlanObstacle::Kind::collision) {  // without those links' shapes nothing else is met
-    std::erase_if(freed.shapes, [&](const BoneCollider& shape) {
-      return std::any_of(
-          report.obstacles.begin(), report.obstacles.end(), [&](const PlanObstacle& named) {
-            return named.kind == kind && freed.robot.links[shape.bone].name == named.value;
-          });
-    });
-    const auto again = plan_motion(of.rig.character, of.target, of.timing, freed, options);
-    return again && (again->report.is_reachable || again->report.obstacles.front().kind != kind);
+  switch (report.obstacles.front().kind) {
+    case PlanObstacle::Kind::wound:
+      return !leaves_limits(of.tool, planned.trajectory) &&
+             !makes_wound(of, planned.trajectory, path, options.tolerance);
+    case PlanObstacle::Kind::joint_limit:
+      return is_reached_without(of, options.tolerance, report, samples);
+    case PlanObstacle::Kind::reach:
+      return !is_reached_without(of, options.tolerance, report, samples);
+    default: return gets_farther(of, options, report);
   }
-  const bool is_reach = kind == PlanObstacle::Kind::reach;
-  for (RobotValue& value : freed.robot.values) {
-    const bool is_named = is_reach || std::any_of(report.obstacles.begin(), report.obstacles.end(),
-                                                  [&](const PlanObstacle& named) {
-                                                    return named.value == value.name;
-                                                  });
-    if (!is_named) continue;
-    RobotJoint& joint = freed.robot.joints[value.joint];
-    if (kind == PlanObstacle::Kind::joint_speed) {
-      joint.velocity *= 10;
-      continue;
-    }
-    value.lower = joint.lower = -1e3;
-    value.upper = joint.upper = 1e3;
-  }
-  if (kind == PlanObstacle::Kind::joint_speed) {
-    const auto again = plan_motion(of.rig.character, of.target, of.timing, freed, options);
-    return again && (again->report.is_reachable ||
-                     again->report.obstacles.front().kind != PlanObstacle::Kind::joint_speed ||
-                     again->report.obstacles.front().value != report.obstacles.front().value);
-  }
-  const double at = report.obstacles.front().at;
-  const auto nearest =
-      std::min_element(samples.begin(), samples.end(),
-                       [&](const plan::TargetSample& a, const plan::TargetSample& b) {
-                         const auto away = [&](const plan::TargetSample& s) {
-                           return std::abs(s.share - at) + (s.depth > 0 ? 0 : 10);
-                         };
-                         return away(a) < away(b);
-                       });
-  std::vector<double> lower, upper;
-  for (const RobotValue& value : freed.robot.values) {
-    lower.push_back(value.lower);
-    upper.push_back(value.upper);
-  }
-  const PatternSearch search(freed, options.tolerance);
-  return search.reach_from_anywhere(*nearest, lower, upper, 60) != is_reach;
 }
 
 void run_case(const PlanCase& of, std::uint64_t seed, bool is_verbose, Figures& figures) {

@@ -41,10 +41,26 @@ struct Track {
 ///         outside of the character, of these those with the least errors and speeds.
 [[nodiscard]] std::vector<Track> follow_tracks(BladeChain& chain, const TrackSearch& search);
 
+/// What a walk minds.
+struct WalkRules {
+  bool keeps_links_outside = true;
+  double speed = 1;  ///< Factor of all limits of speed.
+};
+
 /// Tracks on which links stay outside of the character, and values within limits and speeds: a
 /// random walk from one instant of the clearance to the next, of which at each instant some places
 /// are kept (a beam). The blade leans to any side where it must.
 /// @return at most three; none if no walk gets through.
-[[nodiscard]] std::vector<Track> walk_freely(BladeChain& chain, const TrackSearch& search);
+[[nodiscard]] std::vector<Track> walk_freely(BladeChain& chain, const TrackSearch& search,
+                                             const WalkRules& rules = {});
+
+/// Whether one of some random starts leads to values that reach an instant of the clearance within
+/// limits, with links outside of the character.
+[[nodiscard]] bool has_free_values(BladeChain& chain, const TrackSearch& search,
+                                   std::size_t instant, std::uint32_t tries);
+
+/// How deep links are on a track, summed over the instants of the clearance.
+[[nodiscard]] double depth_of_links(BladeChain& chain, const Clearance& clearance,
+                                    const Track& track);
 
 }  // namespace sunder::plan

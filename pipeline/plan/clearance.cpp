@@ -11,11 +11,33 @@
 namespace sunder::plan {
 namespace {
 
-constexpr double kPlaces = 4000;  ///< About so many places of the surface.
+constexpr double kPlaces = 4000;  ///< About so many places of faces, and vertices at most.
 /// At so many samples and the first one distances are measured.
 constexpr std::size_t kInstants = 64;
 constexpr int kPlacesOfBlade = 6;   ///< At which it is looked whether it is outside.
 constexpr std::size_t kBlock = 32;  ///< Places in a block.
+
+/// Vertices, each as a corner of the first triangle that has it; of more than kPlaces every so
+/// many.
+std::vector<SurfaceAnchor> some_vertices(const Character& character) {
+  std::vector<SurfaceAnchor> all;
+  for (std::uint32_t mesh = 0; mesh < character.meshes.size(); ++mesh) {
+    const Mesh& of = character.meshes[mesh];
+    std::vector<bool> is_known(of.vertex_count());
+    for (std::uint32_t i = 0; i < of.triangle_count(); ++i)
+      for (std::size_t corner = 0; corner < 3; ++corner) {
+        const std::uint32_t vertex = of.triangles[i][corner];
+        if (is_known[vertex]) continue;
+        is_known[vertex] = true;
+        all.push_back({mesh, {i, {0, 0, 0}}});
+        all.back().birth.barycentric[corner] = 1;
+      }
+  }
+  const std::size_t stride = all.size() / static_cast<std::size_t>(kPlaces) + 1;
+  std::vector<SurfaceAnchor> some;
+  for (std::size_t i = 0; i < all.size(); i += stride) some.push_back(all[i]);
+  return some;
+}
 
 /// Places evenly distributed over the surface in a pose: each triangle gets its share by area, by
 /// the R2 sequence (Roberts 2018).
@@ -37,7 +59,7 @@ Result<std::vector<SurfaceAnchor>> spread_places(const Character& character,
   };
   double area = 0;
   for (std::size_t i = 0; i < corners.size(); i += 3) area += area_of(i);
-  std::vector<SurfaceAnchor> places;
+  std::vector<SurfaceAnchor> places = some_vertices(character);
   double due = 0;
   for (std::size_t i = 0; i < corners.size(); i += 3) {
     due += area > 0 ? kPlaces * area_of(i) / area : 0;

@@ -17,10 +17,16 @@ bool can_reach(BladeChain& chain, const TargetSample& sample, const ErrorScales&
   Values near = start;
   solve_sample(chain, sample, scales, limits, near);
   if (is_reached(chain, sample, near, tolerance)) return true;
-  const std::vector<Values> found = solutions_of(chain, sample, scales, limits, kSeeds);
-  return std::any_of(found.begin(), found.end(), [&](const Values& values) {
-    return is_reached(chain, sample, values, tolerance);
-  });
+  for (const double angle : {scales.angle, 1.0, std::numeric_limits<double>::infinity()}) {
+    ErrorScales leaning = scales;  // at any angle, if it must
+    leaning.angle = angle;
+    const std::vector<Values> found = solutions_of(chain, sample, leaning, limits, kSeeds);
+    const bool is_one = std::any_of(found.begin(), found.end(), [&](const Values& values) {
+      return is_reached(chain, sample, values, tolerance);
+    });
+    if (is_one) return true;
+  }
+  return false;
 }
 
 void take_away(ValueLimits& limits, Eigen::Index i) {
@@ -70,6 +76,7 @@ std::vector<PlanObstacle> find_obstacles(BladeChain& chain, const TargetSample& 
                                          const ErrorScales& scales, const ValueLimits& limits,
                                          const Values& values, double tolerance) {
   std::vector<PlanObstacle> found, together;
+  if (can_reach(chain, sample, scales, limits, values, tolerance)) return found;
   ValueLimits all = limits;
   for (std::size_t i = 0; i < chain.size(); ++i) {
     const auto index = static_cast<Eigen::Index>(i);
@@ -87,6 +94,14 @@ std::vector<PlanObstacle> find_obstacles(BladeChain& chain, const TargetSample& 
   if (!found.empty()) return found;
   if (!together.empty() && can_reach(chain, sample, scales, all, values, tolerance))
     return together;
+  std::vector<PlanObstacle> any;
+  for (std::size_t i = 0; i < chain.size(); ++i) {
+    const auto index = static_cast<Eigen::Index>(i);
+    if (!std::isfinite(limits.lower[index]) && !std::isfinite(limits.upper[index])) continue;
+    any.push_back({PlanObstacle::Kind::joint_limit, chain.description(i).name, sample.share});
+    take_away(all, index);
+  }
+  if (can_reach(chain, sample, scales, all, values, tolerance)) return any;
   return {{PlanObstacle::Kind::reach, "", sample.share}};
 }
 

@@ -23,7 +23,8 @@ double change_cost(const Values& change, double seconds, const Values& speed_lim
   return cost;
 }
 
-/// How deep links are, summed over instants.
+}  // namespace
+
 double depth_of_links(BladeChain& chain, const Clearance& clearance, const Track& track) {
   double inside = 0;
   for (std::size_t i = 0; i < clearance.instants() && clearance.is_needed(); ++i)
@@ -31,8 +32,6 @@ double depth_of_links(BladeChain& chain, const Clearance& clearance, const Track
         0.0, clearance.least_distance(chain, i, track.values[clearance.sample_of(i)], 0.0));
   return inside;
 }
-
-}  // namespace
 
 std::vector<Track> follow_tracks(BladeChain& chain, const TrackSearch& search) {
   const std::span<const TargetSample> samples = search.samples;

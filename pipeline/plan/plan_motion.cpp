@@ -116,14 +116,69 @@ class Planner {
       const Result<bool> is_made = makes_it(track);
       if (!is_made || *is_made) return is_made;
     }
-    if (!first) {
-      if (check_reach(chain, tracks[0].values)) name_links(chain, tracks[0]);
-      slowdown_ = 1;
+    if (first && is_plain_reason(*first)) {
+      planned_ = std::move(*first);
+      slowdown_ = first_slowdown;
       return false;
     }
-    planned_ = std::move(*first);
-    slowdown_ = first_slowdown;
+    name_cause(chain, search, tracks[0]);
     return false;
+  }
+
+  /// Whether speeds and accelerations, or the tear, are all that is in the way.
+  static bool is_plain_reason(const PlannedMotion& planned) {
+    return !planned.report.obstacles.empty() &&
+           std::all_of(planned.report.obstacles.begin(), planned.report.obstacles.end(),
+                       [](const PlanObstacle& obstacle) {
+                         return obstacle.kind != PlanObstacle::Kind::collision &&
+                                obstacle.kind != PlanObstacle::Kind::reach;
+                       });
+  }
+
+  /// Names what, taken away, lets a walk through: the links that are in the way, or limits, or
+  /// speeds.
+  void name_cause(BladeChain& chain, const TrackSearch& search, const Track& best) {
+    PlanReport& report = planned_.report;
+    slowdown_ = 1;
+    const bool is_reached = check_reach(chain, best.values);
+    const std::vector<PlanObstacle> at_place = report.obstacles;  // empty: other values reach it
+    report.is_reachable = false;
+    report.obstacles.clear();
+    if (!is_reached && !at_place.empty()) {
+      report.obstacles = at_place;
+      return;
+    }
+    for (const Track& track : walk_freely(chain, search, {false, 1})) {
+      name_links(chain, track);
+      if (!report.obstacles.empty()) return;
+    }
+    for (const Track& track : walk_freely(chain, search, {false, kFaster})) {
+      name_speeds(chain, track);
+      if (!report.obstacles.empty()) return;
+    }
+    name_links(chain, best);
+    if (report.obstacles.empty())
+      report.obstacles.push_back({PlanObstacle::Kind::reach, "", report.last_share});
+  }
+
+  /// Names the joints that a track moves faster than their limits.
+  void name_speeds(const BladeChain& chain, const Track& track) {
+    for (std::size_t i = 0; i < chain.size(); ++i) {
+      const auto index = static_cast<Eigen::Index>(i);
+      double most = 1, at = 0;
+      for (std::size_t k = 1; k < samples_.size(); ++k) {
+        const double seconds = samples_[k].time - samples_[k - 1].time;
+        const double speed =
+            std::abs(track.values[k][index] - track.values[k - 1][index]) / seconds;
+        if (speed <= most * limits_.speed[index]) continue;
+        most = speed / limits_.speed[index];
+        at = samples_[k].share;
+      }
+      if (most <= 1) continue;
+      planned_.report.obstacles.push_back(
+          {PlanObstacle::Kind::joint_speed, chain.description(i).name, at});
+      slowdown_ = std::max(slowdown_, most);
+    }
   }
 
   /// Names the links that are inside of the character on a track.
@@ -305,6 +360,7 @@ class Planner {
 
   static constexpr double kNearLimit = 0.9;  ///< Share of a limit that is used up.
   static constexpr double kSlower = 1.15;
+  static constexpr double kFaster = 10;  ///< What speeds are relaxed by.
 
   const std::shared_ptr<const Character>& character_;
   PlanTiming timing_;

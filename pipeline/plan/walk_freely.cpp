@@ -54,7 +54,8 @@ Eigen::Vector3d lean_of(const Vec3d& from, const Vec3d& to) {
 
 class FreeWalk {
  public:
-  FreeWalk(BladeChain& chain, const TrackSearch& search) : chain_(chain), search_(search) {}
+  FreeWalk(BladeChain& chain, const TrackSearch& search, const WalkRules& rules)
+      : chain_(chain), search_(search), rules_(rules) {}
 
   std::vector<Track> run() {
     std::size_t start = 0;
@@ -66,6 +67,14 @@ class FreeWalk {
       start = farthest_;
     }
     return tracks;
+  }
+
+  bool has_start(std::size_t instant, std::uint32_t tries) {
+    for (std::uint32_t i = 0; i <= tries; ++i) {
+      Step start;
+      if (settle_start(i, instant, start)) return true;
+    }
+    return false;
   }
 
  private:
@@ -95,16 +104,21 @@ class FreeWalk {
 
   double random(double most) { return most * (2 * next_share(state_) - 1); }
 
+  /// The values of one random start. @return whether they are free.
+  bool settle_start(std::uint32_t i, std::size_t instant, Step& start) {
+    const Values rest = chain_.rest();
+    start.values = i == 0 ? rest : random_values(rest, search_.limits.values, state_);
+    if (i % 4 == 1) start.lean = {random(kStartLean), random(kStartLean), random(kStartLean)};
+    const Lean kind = i % 4 == 2 ? Lean::little : i % 4 == 3 ? Lean::any : Lean::kept;
+    return settle(instant, search_.limits.values, kind, start);
+  }
+
   /// Different values for an instant that are free, those with the most room first.
   std::vector<Step> starts_at(std::size_t instant) {
     std::vector<Step> starts;
-    const Values rest = chain_.rest();
     for (std::uint32_t i = 0; i <= kTries * search_.seeds; ++i) {
       Step start;
-      start.values = i == 0 ? rest : random_values(rest, search_.limits.values, state_);
-      if (i % 4 == 1) start.lean = {random(kStartLean), random(kStartLean), random(kStartLean)};
-      const Lean kind = i % 4 == 2 ? Lean::little : i % 4 == 3 ? Lean::any : Lean::kept;
-      if (!settle(instant, search_.limits.values, kind, start)) continue;
+      if (!settle_start(i, instant, start)) continue;
       const bool is_known = std::any_of(starts.begin(), starts.end(), [&](const Step& other) {
         return (other.values - start.values).cwiseAbs().maxCoeff() < kSameStart;
       });
@@ -140,8 +154,9 @@ class FreeWalk {
     step.lean = lean_of(wanted, handle);
     if (!search_.clearance.is_blade_outside(instant, blade.base, cuts ? sample.place : blade.tip))
       return false;
-    const double distance =
-        search_.clearance.least_distance(chain_, instant, step.values, 2 * search_.margin);
+    double distance = search_.margin;
+    if (rules_.keeps_links_outside)
+      distance = search_.clearance.least_distance(chain_, instant, step.values, 2 * search_.margin);
     if (distance <= 0) return false;
     double to_limits = kRoomOfLimits;
     const ValueLimits& all = search_.limits.values;
@@ -187,7 +202,7 @@ class FreeWalk {
 
   void add_children(const Step& parent, std::size_t index, std::size_t instant, double seconds,
                     std::vector<Step>& layer) {
-    const Values most = (kOfSpeed * seconds * search_.limits.speed).eval();
+    const Values most = (kOfSpeed * rules_.speed * seconds * search_.limits.speed).eval();
     const ValueLimits near = {(parent.values - most).cwiseMax(search_.limits.values.lower),
                               (parent.values + most).cwiseMin(search_.limits.values.upper)};
     for (int child = 0; child < kChildren; ++child) {
@@ -236,6 +251,7 @@ class FreeWalk {
 
   BladeChain& chain_;
   const TrackSearch& search_;
+  const WalkRules& rules_;
   std::uint64_t state_ = kWalkSeed;
   std::size_t farthest_ = 0;
   int tried_ = 0;
@@ -243,8 +259,15 @@ class FreeWalk {
 
 }  // namespace
 
-std::vector<Track> walk_freely(BladeChain& chain, const TrackSearch& search) {
-  return FreeWalk(chain, search).run();
+std::vector<Track> walk_freely(BladeChain& chain, const TrackSearch& search,
+                               const WalkRules& rules) {
+  return FreeWalk(chain, search, rules).run();
+}
+
+bool has_free_values(BladeChain& chain, const TrackSearch& search, std::size_t instant,
+                     std::uint32_t tries) {
+  const WalkRules rules;
+  return FreeWalk(chain, search, rules).has_start(instant, tries);
 }
 
 }  // namespace sunder::plan
