@@ -1,6 +1,6 @@
 // Plans of 100 random curves on ten rigs that move, by three arms, beside inverse kinematics for
-// each frame and a search that shares no code. bench_plan [--cases N] [--summary]. Prints the
-// figures of docs/plan.md.
+// each frame and a search that shares no code. bench_plan [--cases N] [--first SEED] [--summary].
+// Prints the figures of docs/plan.md.
 
 #include <sunder/plan/plan.h>
 #include <sunder/skinning/pose.h>
@@ -19,6 +19,8 @@
 #include "bench/harness/cpu_seconds.h"
 #include "bench/harness/json_object.h"
 #include "bench/plan/frame_ik.h"
+#include "bench/plan/link_depth.h"
+#include "bench/plan/motion_search.h"
 #include "bench/plan/pattern_search.h"
 #include "bench/plan/plan_cases.h"
 #include "pipeline/plan/measure_wound.h"
@@ -63,30 +65,18 @@ bool leaves_limits(const PlanTool& tool, const RobotTrajectory& trajectory) {
   return false;
 }
 
-/// How deep a vertex of a link other than the blade's comes below the surface, at 200 times: by the
-/// nearest place of the surface, which plans do not use.
+/// How deep a vertex of a link other than the blade's comes below the surface, at 200 times.
 double deepest_vertex(const PlanCase& of, const RobotTrajectory& trajectory) {
   const auto motion = RobotMotion::create(of.tool.robot, trajectory);
-  const auto model = TornModel::create(of.rig.character);
-  auto query = SurfaceQuery::create(*model);
+  LinkDepth links(of);
   std::vector<Affine3d> frames(of.tool.robot.links.size());
   double deepest = 0;
-  constexpr int kTimes = 200, kMostVertices = 60;
+  constexpr int kTimes = 200;
   for (int i = 0; i <= kTimes; ++i) {
     const double time = motion->last_time() * i / kTimes;
-    const auto pose = plan::pose_at(*of.rig.character, of.timing, time);
-    if (!pose || !query->set_pose(*pose)) return std::numeric_limits<double>::infinity();
     if (!motion->pose_at(time, frames, of.tool.world_from_root))
       return std::numeric_limits<double>::infinity();
-    for (std::uint32_t link = 0; link < frames.size(); ++link) {
-      if (link == of.tool.blade.link) continue;
-      const std::size_t stride = of.vertices[link].size() / kMostVertices + 1;
-      for (std::size_t v = 0; v < of.vertices[link].size(); v += stride) {
-        const auto found =
-            query->find_nearest(frames[link] * of.vertices[link][v], 0.5 * of.rig.size);
-        if (found && found->has_value()) deepest = std::max(deepest, (*found)->depth);
-      }
-    }
+    deepest = std::max(deepest, links.deepest_vertex(time, frames));
   }
   return deepest;
 }
@@ -108,105 +98,84 @@ double frame_hausdorff(const PlanCase& of, const plan::TargetPath& path, const P
   return measured ? measured->hausdorff : std::numeric_limits<double>::infinity();
 }
 
-/// Where source triangles of places are in a pose, by the reference of the tests.
-std::vector<Vec3d> posed_places(const Character& character, const std::vector<SurfaceAnchor>& of,
-                                const ModelPose& pose) {
-  std::vector<std::vector<Vec3d>> posed;
-  for (std::uint32_t mesh = 0; mesh < character.meshes.size(); ++mesh)
-    posed.push_back(test::posed_positions(character, mesh, pose));
-  std::vector<Vec3d> places;
-  for (const SurfaceAnchor& anchor : of) {
-    Vec3d place = Vec3d::Zero();
-    const Triangle& triangle = character.meshes[anchor.mesh].triangles[anchor.birth.triangle];
-    for (std::size_t i = 0; i < 3; ++i)
-      place += anchor.birth.barycentric[i] * posed[anchor.mesh][triangle[i]];
-    places.push_back(place);
+/// Whether a motion tears along the curve.
+bool makes_wound(const PlanCase& of, const RobotTrajectory& trajectory,
+                 const plan::TargetPath& path, double tolerance) {
+  const auto motion = RobotMotion::create(of.tool.robot, trajectory);
+  if (!motion) return false;
+  SweepOptions options;
+  options.spacing = 0.002 * of.rig.size;
+  options.seconds = 1.0 / 60;
+  const auto sweep = sweep_blade(*motion, of.tool.blade, of.tool.world_from_root, options);
+  if (!sweep) return false;
+  const auto tear = tear_of_sweep(*sweep, of.timing.pose, of.timing.clip_speed);
+  const auto pose = plan::pose_at(*of.rig.character, of.timing, of.timing.approach);
+  if (!tear || tear->stroke.empty() || !pose) return false;
+  const auto measured = plan::measure_wound(of.rig.character, path, *tear, *pose);
+  return measured && measured->hausdorff <= tolerance;
+}
+
+bool is_named(const PlanReport& report, PlanObstacle::Kind kind, const std::string& name) {
+  return std::any_of(
+      report.obstacles.begin(), report.obstacles.end(),
+      [&](const PlanObstacle& named) { return named.kind == kind && named.value == name; });
+}
+
+/// Whether a further plan, without the links and the limits of speed that are named, makes the
+/// curve or meets an obstacle of a kind that was not named.
+bool gets_farther(const PlanCase& of, const PlanOptions& options, const PlanReport& report) {
+  using Kind = PlanObstacle::Kind;
+  PlanTool freed = of.tool;
+  std::erase_if(freed.shapes, [&](const BoneCollider& shape) {
+    return is_named(report, Kind::collision, freed.robot.links[shape.bone].name);
+  });
+  for (const RobotValue& value : freed.robot.values)
+    if (is_named(report, Kind::joint_speed, value.name))
+      freed.robot.joints[value.joint].velocity *= 10;
+  const auto again = plan_motion(of.rig.character, of.target, of.timing, freed, options);
+  if (!again) return false;
+  if (again->report.is_reachable) return true;
+  const Kind next = again->report.obstacles.front().kind;
+  return std::none_of(report.obstacles.begin(), report.obstacles.end(),
+                      [&](const PlanObstacle& named) { return named.kind == next; });
+}
+
+/// Whether a search that shares no code reaches the place that is named without the limits that
+/// are named, or for `reach` without any limit.
+bool is_reached_without(const PlanCase& of, double tolerance, const PlanReport& report,
+                        const std::vector<plan::TargetSample>& samples) {
+  const PlanObstacle& first = report.obstacles.front();
+  std::vector<double> lower, upper;
+  for (const RobotValue& value : of.tool.robot.values) {
+    const bool is_free = first.kind == PlanObstacle::Kind::reach ||
+                         is_named(report, PlanObstacle::Kind::joint_limit, value.name);
+    const double more = is_free ? 2 * std::min(value.upper - value.lower, 6.4) : 0;
+    lower.push_back(value.lower - more);
+    upper.push_back(value.upper + more);
   }
-  return places;
-}
-
-/// Whether a motion keeps its limits, and a vertex that it tears is far from the curve, or a place
-/// of the curve far from all of them.
-bool tear_leaves_curve(const PlanCase& of, const PlannedMotion& planned,
-                       const plan::TargetPath& path, double tolerance) {
-  if (planned.tear.stroke.empty() || leaves_limits(of.tool, planned.trajectory)) return false;
-  auto model = TornModel::create(of.rig.character);
-  if (!model || !apply_operation(*model, planned.tear)) return false;
-  std::vector<SurfaceAnchor> births;
-  for (std::uint32_t mesh = 0; mesh < of.rig.character->meshes.size(); ++mesh)
-    for (std::uint32_t v = of.rig.character->meshes[mesh].vertex_count();
-         v < model->character().meshes[mesh].vertex_count(); ++v)
-      births.push_back({mesh, model->birth(mesh, v)});
-  const auto pose = plan::pose_at(*of.rig.character, of.timing, planned.report.cut_begins);
-  const auto lips = posed_places(*of.rig.character, births, *pose);
-  const auto curve = posed_places(*of.rig.character, path.anchors(), *pose);
-  const auto farthest = [](const std::vector<Vec3d>& from, const std::vector<Vec3d>& to) {
-    double most = 0;
-    for (const Vec3d& place : from) {
-      double least = std::numeric_limits<double>::infinity();
-      for (const Vec3d& other : to) least = std::min(least, (place - other).norm());
-      most = std::max(most, least);
-    }
-    return most;
+  const auto away = [&](const plan::TargetSample& sample) {
+    return std::abs(sample.share - first.at) + (sample.depth > 0 ? 0 : 10);
   };
-  return farthest(lips, curve) > tolerance || farthest(curve, lips) > tolerance;
+  const auto nearest = std::min_element(
+      samples.begin(), samples.end(),
+      [&](const plan::TargetSample& a, const plan::TargetSample& b) { return away(a) < away(b); });
+  return PatternSearch(of.tool, tolerance).reach_from_anywhere(*nearest, lower, upper, 60);
 }
 
-/// Whether the obstacles that a plan names are what stops it: without the named limits a search
-/// that shares no code, or a further plan, gets farther; and what is out of reach stays so for
-/// random searches without limits.
+/// Whether the obstacles that a plan names are what stops it.
 bool are_true(const PlanCase& of, const PlanOptions& options, const PlannedMotion& planned,
               const plan::TargetPath& path, const std::vector<plan::TargetSample>& samples) {
   const PlanReport& report = planned.report;
-  const PlanObstacle::Kind kind = report.obstacles.front().kind;
-  if (kind == PlanObstacle::Kind::wound)
-    return tear_leaves_curve(of, planned, path, options.tolerance);
-  PlanTool freed = of.tool;
-  if (kind == PlanObstacle::Kind::collision) {  // without that link's shape the plan gets farther
-    std::erase_if(freed.shapes, [&](const BoneCollider& shape) {
-      return freed.robot.links[shape.bone].name == report.obstacles.front().value;
-    });
-    const auto again = plan_motion(of.rig.character, of.target, of.timing, freed, options);
-    return again && (again->report.is_reachable ||
-                     again->report.obstacles.front().value != report.obstacles.front().value);
+  switch (report.obstacles.front().kind) {
+    case PlanObstacle::Kind::wound:
+      return !leaves_limits(of.tool, planned.trajectory) &&
+             !makes_wound(of, planned.trajectory, path, options.tolerance);
+    case PlanObstacle::Kind::joint_limit:
+      return is_reached_without(of, options.tolerance, report, samples);
+    case PlanObstacle::Kind::reach:
+      return !is_reached_without(of, options.tolerance, report, samples);
+    default: return gets_farther(of, options, report);
   }
-  const bool is_reach = kind == PlanObstacle::Kind::reach;
-  for (RobotValue& value : freed.robot.values) {
-    const bool is_named = is_reach || std::any_of(report.obstacles.begin(), report.obstacles.end(),
-                                                  [&](const PlanObstacle& named) {
-                                                    return named.value == value.name;
-                                                  });
-    if (!is_named) continue;
-    RobotJoint& joint = freed.robot.joints[value.joint];
-    if (kind == PlanObstacle::Kind::joint_speed) {
-      joint.velocity *= 10;
-      continue;
-    }
-    value.lower = joint.lower = -1e3;
-    value.upper = joint.upper = 1e3;
-  }
-  if (kind == PlanObstacle::Kind::joint_speed) {
-    const auto again = plan_motion(of.rig.character, of.target, of.timing, freed, options);
-    return again && (again->report.is_reachable ||
-                     again->report.obstacles.front().kind != PlanObstacle::Kind::joint_speed ||
-                     again->report.obstacles.front().value != report.obstacles.front().value);
-  }
-  const double at = report.obstacles.front().at;
-  const auto nearest =
-      std::min_element(samples.begin(), samples.end(),
-                       [&](const plan::TargetSample& a, const plan::TargetSample& b) {
-                         const auto away = [&](const plan::TargetSample& s) {
-                           return std::abs(s.share - at) + (s.depth > 0 ? 0 : 10);
-                         };
-                         return away(a) < away(b);
-                       });
-  std::vector<double> lower, upper;
-  for (const RobotValue& value : freed.robot.values) {
-    lower.push_back(value.lower);
-    upper.push_back(value.upper);
-  }
-  const PatternSearch search(freed, options.tolerance);
-  return search.reach_from_anywhere(*nearest, lower, upper, 60) != is_reach;
 }
 
 void run_case(const PlanCase& of, std::uint64_t seed, bool is_verbose, Figures& figures) {
@@ -229,8 +198,11 @@ void run_case(const PlanCase& of, std::uint64_t seed, bool is_verbose, Figures& 
   const PlannedMotion& planned = **result;
   const PlanReport& report = planned.report;
   const auto samples = plan::sample_target(*of.rig.character, *path, of.timing, 200);
+  LinkDepth links(of);
   const bool is_reachable =
-      PatternSearch(of.tool, options.tolerance).follow(*samples, of.middle_values);
+      MotionSearch(of, options.tolerance, links).find(*samples, [&](const RobotTrajectory& motion) {
+        return makes_wound(of, motion, *path, options.tolerance);
+      });
   const bool is_ok = report.is_reachable && report.hausdorff <= options.tolerance;
   figures.reachable += is_reachable ? 1 : 0;
   figures.reached += is_reachable && is_ok ? 1 : 0;
@@ -271,6 +243,7 @@ void run_case(const PlanCase& of, std::uint64_t seed, bool is_verbose, Figures& 
     std::printf("  [%d %s %.2f]", static_cast<int>(obstacle.kind), obstacle.value.c_str(),
                 obstacle.at);
   std::printf("%s\n", report.is_reachable ? "" : is_true ? " true" : " FALSE");
+  std::fflush(stdout);
 }
 
 double share(int part, int of) {
@@ -305,14 +278,17 @@ void print_summary(const Figures& figures) {
 int main(int argc, char** argv) {
   int wanted = 100;
   bool is_summary = false;
+  std::uint64_t first = 0;
   for (int i = 1; i < argc; ++i) {
     if (std::strcmp(argv[i], "--summary") == 0) is_summary = true;
+    if (std::strcmp(argv[i], "--first") == 0 && i + 1 < argc)
+      first = static_cast<std::uint64_t>(std::atoi(argv[++i]));
     if (std::strcmp(argv[i], "--cases") == 0 && i + 1 < argc) wanted = std::atoi(argv[++i]);
   }
   const std::vector<MovingRig> rigs = moving_rigs();
   const std::vector<Arm> known = arms();
   Figures figures;
-  for (std::uint64_t seed = 0; figures.cases < wanted && seed < 10'000; ++seed)
+  for (std::uint64_t seed = first; figures.cases < wanted && seed < 10'000; ++seed)
     if (const auto made = make_case(rigs, known, seed)) run_case(*made, seed, !is_summary, figures);
   print_summary(figures);
 }

@@ -10,7 +10,6 @@ namespace {
 
 constexpr double kDepthShare = 0.45;  ///< Of the wanted depth; plans allow 0.5.
 constexpr double kFirstStep = 0.1, kLastStep = 1e-5;
-constexpr int kEvery = 4;  ///< Samples of the cut that are skipped.
 
 }  // namespace
 
@@ -18,14 +17,7 @@ PatternSearch::PatternSearch(const PlanTool& tool, double tolerance)
     : tool_(tool),
       kinematics_(*RobotKinematics::create(tool.robot)),
       tolerance_(tolerance),
-      frames_(tool.robot.links.size()) {
-  for (const RobotValue& value : tool.robot.values) {
-    lower_.push_back(value.lower);
-    upper_.push_back(value.upper);
-    const double speed = tool.robot.joints[value.joint].velocity;
-    speeds_.push_back(speed > 0 ? 0.9 * speed : 1e9);
-  }
-}
+      frames_(tool.robot.links.size()) {}
 
 double PatternSearch::cost(const plan::TargetSample& sample,
                            const std::vector<double>& values) const {
@@ -87,36 +79,6 @@ bool PatternSearch::reach_from_anywhere(const plan::TargetSample& sample,
     if (reach(sample, lower, upper, values)) return true;
   }
   return false;
-}
-
-bool PatternSearch::step(const plan::TargetSample& sample, double seconds,
-                         std::vector<double>& values) const {
-  std::vector<double> lower = lower_, upper = upper_;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    lower[i] = std::max(lower[i], values[i] - seconds * speeds_[i]);
-    upper[i] = std::min(upper[i], values[i] + seconds * speeds_[i]);
-  }
-  return reach(sample, lower, upper, values);
-}
-
-bool PatternSearch::follow(const std::vector<plan::TargetSample>& samples,
-                           std::vector<double> middle) const {
-  std::vector<std::size_t> cut;
-  for (std::size_t i = 0; i < samples.size(); i += kEvery)
-    if (samples[i].depth > 0) cut.push_back(i);
-  if (cut.empty()) return false;
-  const std::size_t start = cut.size() / 2;
-  if (!reach(samples[cut[start]], lower_, upper_, middle)) return false;
-  for (const int way : {1, -1}) {
-    std::vector<double> values = middle;
-    for (auto i = static_cast<std::ptrdiff_t>(start) + way;
-         i >= 0 && i < static_cast<std::ptrdiff_t>(cut.size()); i += way) {
-      const auto& sample = samples[cut[static_cast<std::size_t>(i)]];
-      const auto& before = samples[cut[static_cast<std::size_t>(i - way)]];
-      if (!step(sample, std::abs(sample.time - before.time), values)) return false;
-    }
-  }
-  return true;
 }
 
 }  // namespace sunder::bench

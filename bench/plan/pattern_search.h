@@ -23,20 +23,13 @@ class PatternSearch {
   bool reach_from_anywhere(const plan::TargetSample& sample, const std::vector<double>& lower,
                            const std::vector<double>& upper, int starts) const;
 
-  /// Whether the arm follows all samples of the cut from values that reach the one in the middle,
-  /// within limits and speeds.
-  bool follow(const std::vector<plan::TargetSample>& samples, std::vector<double> middle) const;
-
  private:
   [[nodiscard]] double cost(const plan::TargetSample& sample,
                             const std::vector<double>& values) const;
-  [[nodiscard]] bool step(const plan::TargetSample& sample, double seconds,
-                          std::vector<double>& values) const;
 
   const PlanTool& tool_;
   RobotKinematics kinematics_;
   double tolerance_;
-  std::vector<double> lower_, upper_, speeds_;
   mutable std::vector<Affine3d> frames_;
 };
 

@@ -32,6 +32,19 @@ class Clearance {
                                   const PlanTiming& timing, std::span<const TargetSample> samples);
 
   [[nodiscard]] bool is_needed() const { return !shapes_.empty(); }
+  /// Times at which distances are measured, ascending: at least two.
+  [[nodiscard]] std::size_t instants() const { return instants_.size(); }
+  [[nodiscard]] std::size_t sample_of(std::size_t instant) const {
+    return instants_[instant].sample;
+  }
+
+  /// The least distance of a link at an instant, at most `most`; below 0 inside.
+  [[nodiscard]] double least_distance(BladeChain& chain, std::size_t instant, const Values& values,
+                                      double most) const;
+
+  /// Whether a blade is above the surface between its base and a place at which it enters it.
+  [[nodiscard]] bool is_blade_outside(std::size_t instant, const Vec3d& base,
+                                      const Vec3d& entry) const;
 
   /// Per instant and link the nearest place, if it is nearer than `margin`.
   /// @param values_at  of the joints that move the blade, at a time.
@@ -40,10 +53,23 @@ class Clearance {
                                             double margin) const;
 
  private:
-  struct Instant {
-    double time;
-    std::vector<Vec3d> places, normals;
+  /// A ball around places that follow one another.
+  struct Block {
+    Vec3d centre = Vec3d::Zero();
+    double radius = 0;
   };
+  struct Instant {
+    double time = 0;
+    std::size_t sample = 0;
+    std::vector<Vec3d> places, normals;
+    std::vector<Block> blocks;
+  };
+
+  void add_blocks(Instant& instant) const;
+  /// The place of the surface that is nearest to a point. There is at least one.
+  [[nodiscard]] static std::size_t nearest_to(const Instant& instant, const Vec3d& point);
+  [[nodiscard]] NearPlace nearest_at(const Instant& instant, std::size_t shape,
+                                     const Collider& posed, double margin) const;
 
   explicit Clearance(const PlanTool& tool) : tool_(&tool) {}
 

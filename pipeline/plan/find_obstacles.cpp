@@ -1,7 +1,6 @@
 #include "pipeline/plan/find_obstacles.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -11,6 +10,31 @@ namespace {
 constexpr double kAtLimit = 1e-6;  ///< Radians or metres.
 constexpr std::uint32_t kSeeds = 24;
 constexpr double kDepthTolerance = 0.5;  ///< Share of the wanted depth.
+
+/// Whether some values within limits reach the sample.
+bool can_reach(BladeChain& chain, const TargetSample& sample, const ErrorScales& scales,
+               const ValueLimits& limits, const Values& start, double tolerance) {
+  Values near = start;
+  solve_sample(chain, sample, scales, limits, near);
+  if (is_reached(chain, sample, near, tolerance)) return true;
+  for (const double angle : {scales.angle, 1.0, std::numeric_limits<double>::infinity()}) {
+    ErrorScales leaning = scales;  // at any angle, if it must
+    leaning.angle = angle;
+    const std::vector<Values> found = solutions_of(chain, sample, leaning, limits, kSeeds);
+    const bool is_one = std::any_of(found.begin(), found.end(), [&](const Values& values) {
+      return is_reached(chain, sample, values, tolerance);
+    });
+    if (is_one) return true;
+  }
+  return false;
+}
+
+void take_away(ValueLimits& limits, Eigen::Index i) {
+  limits.lower[i] = -std::numeric_limits<double>::infinity();
+  limits.upper[i] = std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
 
 bool is_reached(BladeChain& chain, const TargetSample& sample, const Values& values,
                 double tolerance) {
@@ -23,30 +47,6 @@ bool is_reached(BladeChain& chain, const TargetSample& sample, const Values& val
       errors.tip_depth >= sample.depth - allowed && errors.tip_depth <= sample.full_depth + allowed;
   return errors.place <= tolerance && is_deep_enough && errors.is_base_outside;
 }
-
-/// Whether some values within limits reach the sample.
-bool can_reach(BladeChain& chain, const TargetSample& sample, const ErrorScales& scales,
-               const ValueLimits& limits, const Values& start, double tolerance) {
-  Values near = start;
-  solve_sample(chain, sample, scales, limits, near);
-  if (is_reached(chain, sample, near, tolerance)) return true;
-  const std::array<TargetSample, 1> alone = {sample};
-  SplineLimits without_speeds;
-  without_speeds.values = limits;
-  without_speeds.speed = without_speeds.acceleration =
-      Values::Constant(start.size(), std::numeric_limits<double>::infinity());
-  for (const std::vector<Values>& track :
-       track_samples(chain, alone, scales, without_speeds, kSeeds))
-    if (is_reached(chain, sample, track[0], tolerance)) return true;
-  return false;
-}
-
-void take_away(ValueLimits& limits, Eigen::Index i) {
-  limits.lower[i] = -std::numeric_limits<double>::infinity();
-  limits.upper[i] = std::numeric_limits<double>::infinity();
-}
-
-}  // namespace
 
 ReachedPart reached_part(BladeChain& chain, std::span<const TargetSample> samples,
                          std::span<const Values> values, double tolerance) {
@@ -76,6 +76,7 @@ std::vector<PlanObstacle> find_obstacles(BladeChain& chain, const TargetSample& 
                                          const ErrorScales& scales, const ValueLimits& limits,
                                          const Values& values, double tolerance) {
   std::vector<PlanObstacle> found, together;
+  if (can_reach(chain, sample, scales, limits, values, tolerance)) return found;
   ValueLimits all = limits;
   for (std::size_t i = 0; i < chain.size(); ++i) {
     const auto index = static_cast<Eigen::Index>(i);
@@ -93,6 +94,14 @@ std::vector<PlanObstacle> find_obstacles(BladeChain& chain, const TargetSample& 
   if (!found.empty()) return found;
   if (!together.empty() && can_reach(chain, sample, scales, all, values, tolerance))
     return together;
+  std::vector<PlanObstacle> any;
+  for (std::size_t i = 0; i < chain.size(); ++i) {
+    const auto index = static_cast<Eigen::Index>(i);
+    if (!std::isfinite(limits.lower[index]) && !std::isfinite(limits.upper[index])) continue;
+    any.push_back({PlanObstacle::Kind::joint_limit, chain.description(i).name, sample.share});
+    take_away(all, index);
+  }
+  if (can_reach(chain, sample, scales, all, values, tolerance)) return any;
   return {{PlanObstacle::Kind::reach, "", sample.share}};
 }
 

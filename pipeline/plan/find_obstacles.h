@@ -10,6 +10,10 @@
 
 namespace sunder::plan {
 
+/// Whether the blade passes the surface within a distance of the sample, about as deep as it shall.
+[[nodiscard]] bool is_reached(BladeChain& chain, const TargetSample& sample, const Values& values,
+                              double tolerance);
+
 /// The longest part of the cut in which the blade passes the surface within a distance of the
 /// curve, about as deep as it shall.
 struct ReachedPart {
@@ -23,6 +27,7 @@ struct ReachedPart {
 /// What keeps the blade from the sample next to a part: each limit that, taken away alone, lets
 /// joints reach it; otherwise limits that let them reach it together; otherwise the reach.
 /// @param values  with the least errors at that sample.
+/// @return empty if values within limits reach the sample.
 [[nodiscard]] std::vector<PlanObstacle> find_obstacles(BladeChain& chain,
                                                        const TargetSample& sample,
                                                        const ErrorScales& scales,

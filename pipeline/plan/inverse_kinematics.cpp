@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
+#include <utility>
 
 #include <Eigen/Cholesky>
+
+#include "pipeline/plan/next_share.h"
 
 namespace sunder::plan {
 namespace {
@@ -14,25 +16,7 @@ constexpr int kMostIterations = 60;
 constexpr double kLeastShare = 1e-9;  ///< Share of the cost.
 constexpr double kSolved = 1e-10;     ///< A cost below counts as none.
 constexpr double kSame = 0.05;        ///< Solutions whose values differ less are one.
-constexpr std::size_t kMostTracks = 6;
-constexpr std::size_t kBestTracks = 3;
-/// Cost of a change of values by one from a sample to the next, and of speeds at their limits.
-constexpr double kChange = 1e-2, kAtSpeedLimit = 1;
 constexpr std::uint64_t kSeed = 0x5d5eed;
-
-/// SplitMix64 (Steele, Lea and Flood 2014).
-double next_share(std::uint64_t& state) {
-  state += 0x9e3779b97f4a7c15;
-  std::uint64_t z = state;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
-  return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
-}
-
-struct Solution {
-  Values values;
-  double cost = std::numeric_limits<double>::infinity();
-};
 
 /// One sample, and the state of the search for its values.
 class SampleSolver {
@@ -98,46 +82,6 @@ class SampleSolver {
   ErrorRates rates_;
 };
 
-/// A random start: within limits, or within a turn or a metre of rest where there are none.
-Values random_values(const Values& rest, const ValueLimits& limits, std::uint64_t& state) {
-  Values values(rest.size());
-  for (Eigen::Index i = 0; i < values.size(); ++i) {
-    const double low = std::max(limits.lower[i], rest[i] - std::numbers::pi);
-    const double high = std::min(limits.upper[i], rest[i] + std::numbers::pi);
-    values[i] = low + next_share(state) * (high - low);
-  }
-  return values;
-}
-
-/// Different solutions for one sample, those with the least cost first.
-std::vector<Solution> solutions_of(BladeChain& chain, const TargetSample& sample,
-                                   const ErrorScales& scales, const ValueLimits& limits,
-                                   std::uint32_t seeds) {
-  std::vector<Solution> found;
-  std::uint64_t state = kSeed;
-  for (std::uint32_t seed = 0; seed <= seeds; ++seed) {
-    Solution solution{seed == 0 ? chain.rest() : random_values(chain.rest(), limits, state), 0};
-    solution.cost = solve_sample(chain, sample, scales, limits, solution.values);
-    const bool is_known = std::any_of(found.begin(), found.end(), [&](const Solution& other) {
-      return (other.values - solution.values).cwiseAbs().maxCoeff() < kSame;
-    });
-    if (!is_known && std::isfinite(solution.cost)) found.push_back(solution);
-  }
-  std::stable_sort(found.begin(), found.end(),
-                   [](const Solution& a, const Solution& b) { return a.cost < b.cost; });
-  if (found.size() > kMostTracks) found.resize(kMostTracks);
-  return found;
-}
-
-double change_cost(const Values& change, double seconds, const Values& speed_limits) {
-  double cost = kChange * change.squaredNorm();
-  for (Eigen::Index i = 0; i < change.size(); ++i) {
-    const double share = std::abs(change[i]) / (seconds * speed_limits[i]);
-    cost += kAtSpeedLimit * share * share * share * share;
-  }
-  return cost;
-}
-
 }  // namespace
 
 ValueLimits limits_of(const BladeChain& chain) {
@@ -154,41 +98,35 @@ double solve_sample(BladeChain& chain, const TargetSample& sample, const ErrorSc
   return SampleSolver(chain, sample, scales, limits).run(values);
 }
 
-std::vector<std::vector<Values>> track_samples(BladeChain& chain,
-                                               std::span<const TargetSample> samples,
-                                               const ErrorScales& scales,
-                                               const SplineLimits& limits, std::uint32_t seeds) {
-  struct Track {
-    std::vector<Values> values;
-    double cost = 0;
-  };
-  std::vector<Track> tracks;
-  const auto half = std::find_if(samples.begin(), samples.end(),
-                                 [](const TargetSample& sample) { return sample.share >= 0.5; });
-  // So that neither end is far from a solution.
-  const std::size_t middle =
-      half == samples.end() ? 0 : static_cast<std::size_t>(half - samples.begin());
-  for (const Solution& start : solutions_of(chain, samples[middle], scales, limits.values, seeds)) {
-    Track track{std::vector<Values>(samples.size()), 0};
-    const auto follow = [&](std::size_t i, std::size_t before, const Values& from) {
-      track.values[i] = from;
-      track.cost += solve_sample(chain, samples[i], scales, limits.values, track.values[i]);
-      if (i == before) return;
-      const double seconds = std::abs(samples[i].time - samples[before].time);
-      track.cost += change_cost(track.values[i] - from, seconds, limits.speed);
-    };
-    follow(middle, middle, start.values);
-    for (std::size_t i = middle; i-- > 0;) follow(i, i + 1, track.values[i + 1]);
-    for (std::size_t i = middle + 1; i < samples.size(); ++i) follow(i, i - 1, track.values[i - 1]);
-    tracks.push_back(std::move(track));
+Values random_values(const Values& rest, const ValueLimits& limits, std::uint64_t& state) {
+  Values values(rest.size());
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    const double low = std::max(limits.lower[i], rest[i] - std::numbers::pi);
+    const double high = std::min(limits.upper[i], rest[i] + std::numbers::pi);
+    values[i] = low + next_share(state) * (high - low);
   }
-  std::stable_sort(tracks.begin(), tracks.end(),
-                   [](const Track& a, const Track& b) { return a.cost < b.cost; });
-  std::vector<std::vector<Values>> best;
-  for (std::size_t i = 0; i < std::min(tracks.size(), kBestTracks); ++i)
-    best.push_back(std::move(tracks[i].values));
-  if (best.empty()) best.emplace_back(samples.size(), chain.rest());
-  return best;
+  return values;
+}
+
+std::vector<Values> solutions_of(BladeChain& chain, const TargetSample& sample,
+                                 const ErrorScales& scales, const ValueLimits& limits,
+                                 std::uint32_t seeds) {
+  std::vector<std::pair<double, Values>> found;
+  std::uint64_t state = kSeed;
+  for (std::uint32_t seed = 0; seed <= seeds; ++seed) {
+    Values values = seed == 0 ? chain.rest() : random_values(chain.rest(), limits, state);
+    const double cost = solve_sample(chain, sample, scales, limits, values);
+    const bool is_known = std::any_of(found.begin(), found.end(), [&](const auto& other) {
+      return (other.second - values).cwiseAbs().maxCoeff() < kSame;
+    });
+    if (!is_known && std::isfinite(cost)) found.emplace_back(cost, std::move(values));
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<Values> solutions;
+  for (auto& [cost, values] : found) solutions.push_back(std::move(values));
+  if (solutions.empty()) solutions.push_back(chain.rest());
+  return solutions;
 }
 
 }  // namespace sunder::plan

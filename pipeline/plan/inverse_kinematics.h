@@ -28,16 +28,16 @@ struct SplineLimits {
 double solve_sample(BladeChain& chain, const TargetSample& sample, const ErrorScales& scales,
                     const ValueLimits& limits, Values& values);
 
-/// Values for each sample in turn, each found from the one before. The search begins in the middle
-/// of the motion, with random starts, and follows each of several different solutions there: elbow
-/// up, elbow down, and others.
-/// @param samples  at least one; at even times.
-/// @return at most three tracks, at least one, of one entry per sample: those with the least sums
-///         of errors and of speeds beyond limits first.
-[[nodiscard]] std::vector<std::vector<Values>> track_samples(BladeChain& chain,
-                                                             std::span<const TargetSample> samples,
-                                                             const ErrorScales& scales,
-                                                             const SplineLimits& limits,
-                                                             std::uint32_t seeds);
+/// A random start: within limits, or within a turn or a metre of rest where there are none.
+/// @param state  of next_share().
+[[nodiscard]] Values random_values(const Values& rest, const ValueLimits& limits,
+                                   std::uint64_t& state);
+
+/// Different values for one sample, from random starts: elbow up, elbow down, and others.
+/// @param seeds  number of starts besides the values at rest.
+/// @return at least one, those with the least errors first.
+[[nodiscard]] std::vector<Values> solutions_of(BladeChain& chain, const TargetSample& sample,
+                                               const ErrorScales& scales, const ValueLimits& limits,
+                                               std::uint32_t seeds);
 
 }  // namespace sunder::plan

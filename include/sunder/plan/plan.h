@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -140,6 +141,25 @@ struct PlannedMotion {
 ///         unsupported_feature for a blade behind a floating joint; limit_exceeded: out of memory.
 ///         Allocates.
 [[nodiscard]] SUNDER_API Result<PlannedMotion> plan_motion(
+    const std::shared_ptr<const Character>& character, const WoundTarget& target,
+    const PlanTiming& timing, const PlanTool& tool, const PlanOptions& options = {});
+
+/// Where a robot could stand to make a curve, and what it does there.
+struct PlannedBase {
+  Vec3d moved = Vec3d::Zero();  ///< From PlanTool::world_from_root, metres, in model space.
+  PlannedMotion planned;
+};
+
+/// Looks for the nearest place of the robot's root from which all of the curve can be made. The
+/// root is moved, not turned: on 24 spheres around where it is, up to where the arm cannot reach
+/// the curve, 42 directions each, nearest first; where inverse kinematics reach some places of the
+/// curve with links outside of the character, a motion is planned. Between the sphere of the first
+/// motion and the one before, halves are tried along that direction, four times.
+/// @param tool  whose plan is not reachable from where it stands; that place itself is not tried.
+/// @return empty if none of the sixteen nearest places makes it; the failures of plan_motion().
+/// Some
+///         seconds. Allocates.
+[[nodiscard]] SUNDER_API Result<std::optional<PlannedBase>> find_base(
     const std::shared_ptr<const Character>& character, const WoundTarget& target,
     const PlanTiming& timing, const PlanTool& tool, const PlanOptions& options = {});
 

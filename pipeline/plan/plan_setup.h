@@ -1,0 +1,28 @@
+#pragma once
+
+#include <sunder/plan/plan.h>
+
+#include <memory>
+
+#include "pipeline/plan/blade_chain.h"
+#include "pipeline/plan/blade_errors.h"
+#include "pipeline/plan/inverse_kinematics.h"
+#include "pipeline/plan/target_path.h"
+
+namespace sunder::plan {
+
+/// What a search for a motion begins with.
+struct PlanSetup {
+  BladeChain chain;
+  TargetPath path;
+  double tolerance = 0;  ///< Metres.
+  ErrorScales scales;
+  SplineLimits limits;
+
+  /// @return the failures of plan_motion() but for those of the timing.
+  static Result<PlanSetup> create(const std::shared_ptr<const Character>& character,
+                                  const WoundTarget& target, const PlanTiming& timing,
+                                  const PlanTool& tool, const PlanOptions& options);
+};
+
+}  // namespace sunder::plan
