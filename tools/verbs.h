@@ -19,6 +19,7 @@
 #include "tools/open/flesh_option.h"
 #include "tools/render/camera.h"
 #include "tools/tear/refit.h"
+#include "tools/tear/wound_channels.h"
 #include "tools/written_weights/certified_weights.h"
 
 namespace sunder::tools {
@@ -105,6 +106,7 @@ struct TearRequest {
   std::optional<std::filesystem::path> wound_mask;    ///< Output file for a WoundMask.
   std::uint32_t wound_mask_size = 1024;               ///< Texels a side.
   double wound_mask_reach = 0.01;                     ///< Metres.
+  std::vector<MaskChannel> wound_mask_channels;       ///< Each once.
   std::optional<std::filesystem::path> robot_limits;  ///< URDF: joint limits for `refit`.
   ModelReading reading;
   BudgetLimits budget;

@@ -116,6 +116,18 @@ void add_wound_mask(CLI::App& verb, TearRequest& request) {
             ->capture_default_str(),
         kReach, Quantity::length)
       ->needs(file);
+  verb.add_option_function<std::vector<std::string>>(
+          "--wound-mask-channels",
+          [&request](const std::vector<std::string>& names) {
+            for (std::size_t i = 0; i < kMaskChannels.size(); ++i)
+              if (std::ranges::find(names, kMaskChannels[i]) != names.end())
+                request.wound_mask_channels.push_back(static_cast<MaskChannel>(i));
+          },
+          "Textures in grey beside it, one each of age, depth, stretch and blood")
+      ->delimiter(',')
+      ->check(CLI::IsMember(std::vector<std::string>(kMaskChannels.begin(), kMaskChannels.end())))
+      ->type_name("CHANNELS")
+      ->needs(file);
 }
 
 /// @param name  a result of influences_name().
