@@ -91,6 +91,13 @@ struct TearRequest {
   bool count_topology = false;                  ///< Per operation, for the report.
   OpenLips open = OpenLips::no;
   FleshOption flesh;  ///< With `open`.
+  /// When lips open in a clip; without an end, as the tissue does from then on.
+  struct OpenSpan {
+    std::string clip;
+    double begin = 0;  ///< Seconds of the clip.
+    std::optional<double> end = {};
+  };
+  std::optional<OpenSpan> open_span;  ///< With `open`.
   /// Blood on the textures so far from lips, metres; 0: as the size of the model suggests.
   std::optional<double> blood;
   std::optional<Vec3d> facing;   ///< Of the character, for `aimed`; empty: as the rig tells.
