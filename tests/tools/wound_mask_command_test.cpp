@@ -1,5 +1,7 @@
 // `sunder tear --wound-mask` from the outside.
 
+#include <algorithm>
+
 #include "tools/command_fixture.h"
 #include "tools/picture_pixels.h"
 
@@ -114,6 +116,28 @@ TEST_F(WoundMaskCommand, channels_do_not_overwrite_the_source_and_are_named) {
                                           "age", "--picture", path("no.age.png")});
   EXPECT_EQ(twice.exit_code, 2);
   EXPECT_THAT(twice.err, HasSubstr("--wound-mask-channels"));
+}
+
+/// Threads of sutures are dark where the picture without them is not; broken ones are not drawn.
+TEST_F(WoundMaskCommand, pictures_show_threads_that_hold) {
+  const std::string log = write("one.json", kOneTear);
+  const auto dark_in = [&](const std::string& name, std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"tear", model(),          "--ops",     log,
+                                          "-o",   path("torn.glb"), "--picture", path(name)};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    EXPECT_EQ(run_sunder(arguments).exit_code, 0);
+    const auto pixels = test::read_png(path(name));
+    if (!pixels) return -1;
+    int count = 0;
+    for (const test::Pixels::Color& color : pixels->colors)
+      if (*std::ranges::max_element(color) < 45) ++count;
+    return count;
+  };
+  const int open = dark_in("open.png", {}),
+            sewn = dark_in("sewn.png", {"--suture", "all,spacing=0.04"}),
+            broken = dark_in("broken.png", {"--suture", "all,spacing=0.04,strength=1e-9"});
+  EXPECT_GT(sewn, open + 500);
+  EXPECT_LT(broken, open + 100);
 }
 
 TEST_F(WoundMaskCommand, options_out_of_range_are_refused) {
