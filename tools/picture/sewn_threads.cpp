@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <numbers>
+#include <optional>
 
 namespace sunder::tools {
 namespace {
@@ -14,22 +16,55 @@ constexpr std::size_t kSides = 6;
 /// Silk, linear RGB.
 const Vec4f kThreadColor(0.012f, 0.012f, 0.016f, 1.0f);
 
-/// Per vertex of a mesh: from it into the surface that it belongs to.
-std::vector<Vec3f> inward_directions(const Mesh& mesh, const DeformedMesh& posed) {
-  std::vector<Vec3f> sums(posed.positions.size(), Vec3f::Zero());
-  for (const Triangle& triangle : mesh.triangles) {
-    if (is_retired(triangle)) continue;
-    const Vec3f centre = (posed.positions[triangle[0]] + posed.positions[triangle[1]] +
-                          posed.positions[triangle[2]]) /
-                         3.0f;
-    for (const std::uint32_t vertex : triangle) sums[vertex] += centre - posed.positions[vertex];
+/// Where the ends of threads are, and which way the surface lies from there.
+class ThreadEnds {
+ public:
+  ThreadEnds(const TornModel& torn, std::span<const DeformedMesh> open) : torn_(torn), open_(open) {
+    fans_.resize(open.size());
+    for (const SutureThread& thread : threads_of(torn))
+      for (const std::uint32_t point : {thread.left, thread.right})
+        if (const MeshVertex at = vertex_at(torn, point); at.mesh != kNone)
+          fans_[at.mesh][at.vertex];
+    for (std::size_t m = 0; m < fans_.size(); ++m) {
+      if (fans_[m].empty()) continue;
+      for (const Triangle& triangle : torn.character().meshes[m].triangles)
+        for (std::size_t c = 0; c < 3 && !is_retired(triangle); ++c)
+          if (const auto fan = fans_[m].find(triangle[c]); fan != fans_[m].end())
+            fan->second.insert(fan->second.end(), {triangle[(c + 1) % 3], triangle[(c + 2) % 3]});
+    }
   }
-  return sums;
-}
 
-/// An end of a stitch: the lip, and where the thread goes into the skin.
-struct StitchEnd {
-  Vec3f lip, normal, in_skin;
+  struct End {
+    Vec3f place, normal;
+    Vec3f inward;  ///< Across the lip; of unit length, or 0.
+  };
+  /// Nothing where the point has no face any more, or its mesh no normals.
+  [[nodiscard]] std::optional<End> at(std::uint32_t point) const {
+    const MeshVertex at = vertex_at(torn_, point);
+    if (at.mesh == kNone || open_[at.mesh].normals.empty()) return std::nullopt;
+    const std::vector<Vec3f>& places = open_[at.mesh].positions;
+    End end{places[at.vertex], open_[at.mesh].normals[at.vertex], Vec3f::Zero()};
+    const std::vector<std::uint32_t>& others = fans_[at.mesh].at(at.vertex);
+    Vec3f sum = Vec3f::Zero();
+    std::vector<std::uint32_t> along_lip;  // Only these are in one face of the fan.
+    for (const std::uint32_t other : others) {
+      sum += places[other] - end.place;
+      if (std::ranges::count(others, other) == 1) along_lip.push_back(other);
+    }
+    end.inward = sum - sum.dot(end.normal) * end.normal;
+    if (along_lip.size() == 2) {
+      const Vec3f across = end.normal.cross(places[along_lip[0]] - places[along_lip[1]]);
+      end.inward = across.dot(end.inward) < 0 ? Vec3f(-across) : across;
+    }
+    end.inward.normalize();
+    return end;
+  }
+
+ private:
+  const TornModel& torn_;
+  std::span<const DeformedMesh> open_;
+  /// Per mesh and vertex: the other two corners of each face there.
+  std::vector<std::map<std::uint32_t, std::vector<std::uint32_t>>> fans_;
 };
 
 void add_tube(const std::vector<Vec3f>& line, const Vec3f& normal, float radius,
@@ -74,31 +109,21 @@ void add_threads(const TornModel& torn, std::span<const DeformedMesh> open,
   if (threads.empty()) return;
   const auto reach = kReach * static_cast<float>(thickness),
              radius = kRadius * static_cast<float>(thickness);
-  std::vector<std::vector<Vec3f>> inward(open.size());
-  const auto end_at = [&](std::uint32_t point, StitchEnd& end) {
-    const MeshVertex at = vertex_at(torn, point);
-    if (at.mesh == kNone || open[at.mesh].normals.empty()) return false;
-    if (inward[at.mesh].empty())
-      inward[at.mesh] = inward_directions(torn.character().meshes[at.mesh], open[at.mesh]);
-    end.lip = open[at.mesh].positions[at.vertex];
-    end.normal = open[at.mesh].normals[at.vertex];
-    const Vec3f direction = inward[at.mesh][at.vertex];
-    const Vec3f flat = direction - direction.dot(end.normal) * end.normal;
-    if (!(flat.norm() > 0)) return false;
-    end.in_skin = end.lip + reach * flat.normalized();
-    return true;
-  };
+  const ThreadEnds ends(torn, open);
   scene.materials.emplace_back().factor = kThreadColor;
   const auto material = static_cast<std::uint32_t>(scene.materials.size() - 1);
   for (std::size_t i = 0; i < threads.size(); ++i) {
     if (i < loads.size() && loads[i].is_broken) continue;
-    StitchEnd left, right;
-    if (!end_at(threads[i].left, left) || !end_at(threads[i].right, right)) continue;
-    const Vec3f normal = (left.normal + right.normal).normalized();
-    if (!normal.allFinite()) continue;
-    const auto above = [&](const Vec3f& place) { return Vec3f(place + radius * normal); };
-    add_tube({left.in_skin - radius * left.normal, above(left.in_skin), above(left.lip),
-              above(right.lip), above(right.in_skin), right.in_skin - radius * right.normal},
+    const auto left = ends.at(threads[i].left), right = ends.at(threads[i].right);
+    if (!left || !right) continue;
+    const Vec3f normal = (left->normal + right->normal).normalized();
+    Vec3f across = left->inward - right->inward;
+    across = (across - across.dot(normal) * normal).normalized();
+    if (!(normal.norm() > 0.5f && across.norm() > 0.5f)) continue;
+    const Vec3f in_left = left->place + reach * across, in_right = right->place - reach * across;
+    const Vec3f lift = radius * normal;
+    add_tube({in_left - lift, in_left + lift, left->place + lift, right->place + lift,
+              in_right + lift, in_right - lift},
              normal, radius, material, scene);
   }
 }
