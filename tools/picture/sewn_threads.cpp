@@ -20,18 +20,9 @@ const Vec4f kThreadColor(0.012f, 0.012f, 0.016f, 1.0f);
 class ThreadEnds {
  public:
   ThreadEnds(const TornModel& torn, std::span<const DeformedMesh> open) : torn_(torn), open_(open) {
-    fans_.resize(open.size());
     for (const SutureThread& thread : threads_of(torn))
-      for (const std::uint32_t point : {thread.left, thread.right})
-        if (const MeshVertex at = vertex_at(torn, point); at.mesh != kNone)
-          fans_[at.mesh][at.vertex];
-    for (std::size_t m = 0; m < fans_.size(); ++m) {
-      if (fans_[m].empty()) continue;
-      for (const Triangle& triangle : torn.character().meshes[m].triangles)
-        for (std::size_t c = 0; c < 3 && !is_retired(triangle); ++c)
-          if (const auto fan = fans_[m].find(triangle[c]); fan != fans_[m].end())
-            fan->second.insert(fan->second.end(), {triangle[(c + 1) % 3], triangle[(c + 2) % 3]});
-    }
+      for (const std::uint32_t point : {thread.left, thread.right}) fans_[point];
+    for (std::uint32_t m = 0; m < open.size(); ++m) add_fans(m);
   }
 
   struct End {
@@ -42,18 +33,18 @@ class ThreadEnds {
   [[nodiscard]] std::optional<End> at(std::uint32_t point) const {
     const MeshVertex at = vertex_at(torn_, point);
     if (at.mesh == kNone || open_[at.mesh].normals.empty()) return std::nullopt;
-    const std::vector<Vec3f>& places = open_[at.mesh].positions;
-    End end{places[at.vertex], open_[at.mesh].normals[at.vertex], Vec3f::Zero()};
-    const std::vector<std::uint32_t>& others = fans_[at.mesh].at(at.vertex);
+    End end{open_[at.mesh].positions[at.vertex], open_[at.mesh].normals[at.vertex], Vec3f::Zero()};
+    const std::vector<Corner>& others = fans_.at(point);
     Vec3f sum = Vec3f::Zero();
-    std::vector<std::uint32_t> along_lip;  // Only these are in one face of the fan.
-    for (const std::uint32_t other : others) {
-      sum += places[other] - end.place;
-      if (std::ranges::count(others, other) == 1) along_lip.push_back(other);
+    std::vector<Vec3f> along_lip;  // Only these are in one face of the fan.
+    for (const Corner& other : others) {
+      sum += other.place - end.place;
+      if (std::ranges::count(others, other.point, &Corner::point) == 1)
+        along_lip.push_back(other.place);
     }
     end.inward = sum - sum.dot(end.normal) * end.normal;
     if (along_lip.size() == 2) {
-      const Vec3f across = end.normal.cross(places[along_lip[0]] - places[along_lip[1]]);
+      const Vec3f across = end.normal.cross(along_lip[0] - along_lip[1]);
       end.inward = across.dot(end.inward) < 0 ? Vec3f(-across) : across;
     }
     end.inward.normalize();
@@ -61,10 +52,25 @@ class ThreadEnds {
   }
 
  private:
+  void add_fans(std::uint32_t m) {
+    const std::vector<Triangle>& triangles = torn_.character().meshes[m].triangles;
+    for (std::uint32_t t = 0; t < triangles.size(); ++t)
+      for (std::uint32_t c = 0; c < 3 && !is_retired(triangles[t]); ++c) {
+        const auto fan = fans_.find(torn_.point_at(m, t, c));
+        if (fan == fans_.end()) continue;
+        for (const std::uint32_t k : {(c + 1) % 3, (c + 2) % 3})
+          fan->second.push_back({torn_.point_at(m, t, k), open_[m].positions[triangles[t][k]]});
+      }
+  }
+
   const TornModel& torn_;
   std::span<const DeformedMesh> open_;
-  /// Per mesh and vertex: the other two corners of each face there.
-  std::vector<std::map<std::uint32_t, std::vector<std::uint32_t>>> fans_;
+  struct Corner {
+    std::uint32_t point;
+    Vec3f place;
+  };
+  /// Per point: the other two corners of each face there, across seams.
+  std::map<std::uint32_t, std::vector<Corner>> fans_;
 };
 
 void add_tube(const std::vector<Vec3f>& line, const Vec3f& normal, float radius,
