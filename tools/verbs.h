@@ -19,6 +19,7 @@
 #include "tools/open/flesh_option.h"
 #include "tools/render/camera.h"
 #include "tools/tear/refit.h"
+#include "tools/tear/wound_channels.h"
 #include "tools/written_weights/certified_weights.h"
 
 namespace sunder::tools {
@@ -90,6 +91,13 @@ struct TearRequest {
   bool count_topology = false;                  ///< Per operation, for the report.
   OpenLips open = OpenLips::no;
   FleshOption flesh;  ///< With `open`.
+  /// When lips open in a clip; without an end, as the tissue does from then on.
+  struct OpenSpan {
+    std::string clip;
+    double begin = 0;  ///< Seconds of the clip.
+    std::optional<double> end = {};
+  };
+  std::optional<OpenSpan> open_span;  ///< With `open`.
   /// Blood on the textures so far from lips, metres; 0: as the size of the model suggests.
   std::optional<double> blood;
   std::optional<Vec3d> facing;   ///< Of the character, for `aimed`; empty: as the rig tells.
@@ -105,6 +113,7 @@ struct TearRequest {
   std::optional<std::filesystem::path> wound_mask;    ///< Output file for a WoundMask.
   std::uint32_t wound_mask_size = 1024;               ///< Texels a side.
   double wound_mask_reach = 0.01;                     ///< Metres.
+  std::vector<MaskChannel> wound_mask_channels;       ///< Each once.
   std::optional<std::filesystem::path> robot_limits;  ///< URDF: joint limits for `refit`.
   ModelReading reading;
   BudgetLimits budget;

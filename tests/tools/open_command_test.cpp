@@ -126,6 +126,61 @@ TEST_F(OpenCommand, lips_gape_by_a_morph_target_from_the_moment_of_the_tear) {
       0.25 * gap);
 }
 
+/// A seam that opens during a clip, though it was cut at rest.
+TEST_F(OpenCommand, lips_open_over_a_span_of_a_clip) {
+  const std::string log = write("rest.json", R"({"sunder_operations": 1, "operations": [
+    {"op": "tear", "stroke": [{"base": [-0.1, 1.15, 2], "tip": [-0.1, 1.15, 0]},
+                              {"base": [-0.12, 1.4, 2], "tip": [-0.12, 1.4, 0]}]}]})");
+  const LoadedCharacter closed = torn(model(), log, "closed.glb", {});
+  const LoadedCharacter open =
+      torn(model(), log, "open.glb", {"--open", "--open-span", "Sway@0.5..1.5"});
+  ASSERT_TRUE(closed.character && open.character);
+  expect_valid("open.glb");
+  const std::uint32_t m = mesh_named(*open.character, "Cactus");
+  const std::uint32_t weight = open.character->meshes[m].first_morph_weight + 1;
+  const auto apart = [&](double time) {
+    const PoseSpec pose = ClipPose{std::uint32_t{0}, time};
+    return farthest(posed(*open.character, m, pose), posed(*closed.character, m, pose));
+  };
+  const auto share = [&](double time) {
+    const Result<ModelPose> pose = make_pose(*open.character, ClipPose{std::uint32_t{0}, time});
+    return pose ? pose->morph_weights[weight] : -1.0f;
+  };
+  EXPECT_LT(apart(0.3), 1e-5);
+  EXPECT_LT(apart(0.5), 1e-5);
+  EXPECT_GT(apart(1.5), 0.005);
+  for (const double time : {0.5, 0.75, 1.0, 1.2, 1.5})
+    EXPECT_NEAR(share(time), time - 0.5, 1e-5) << "evenly";
+  EXPECT_NEAR(share(1.8), 1, 1e-6);
+  const LoadedCharacter at_once =
+      torn(model(), log, "open.glb", {"--open", "--open-span", "Sway@0.5"});
+  ASSERT_TRUE(at_once.character);
+  const Result<ModelPose> late = make_pose(*at_once.character, ClipPose{std::uint32_t{0}, 1.5});
+  ASSERT_TRUE(late);
+  EXPECT_GT(late->morph_weights[weight], 0.9f) << "as fast as tissue moves";
+}
+
+TEST_F(OpenCommand, spans_that_no_clip_has_are_refused) {
+  const std::string log = write("one.json", kOneTear);
+  for (const auto& [span, told] :
+       {std::pair{"Swya@0.5", "Sway"}, std::pair{"Sway@0.5..99", "lasts"},
+        std::pair{"Sway@1..0.5", "ascending"}, std::pair{"Sway", "CLIP@START"},
+        std::pair{"Sway@x", "CLIP@START"}, std::pair{"Sway@-1", "CLIP@START"}}) {
+    const CommandResult result = run_sunder(
+        {"tear", model(), "--ops", log, "-o", path("x.glb"), "--open", "--open-span", span});
+    EXPECT_EQ(result.exit_code, 2) << span;
+    EXPECT_THAT(result.err, HasSubstr("--open-span")) << span;
+    EXPECT_THAT(result.err, HasSubstr(told)) << span;
+    EXPECT_FALSE(exists("x.glb"));
+  }
+  for (const char* const form : {"--open=baked", "--dry-run"})
+    EXPECT_EQ(run_sunder({"tear", model(), "--ops", log, "-o", path("x.glb"), form, "--open-span",
+                          "Sway@0.5"})
+                  .exit_code,
+              2)
+        << form;
+}
+
 TEST_F(OpenCommand, vertices_that_were_one_gape_as_the_report_says) {
   const std::string log = write("one.json", kOneTear);
   const LoadedCharacter closed = torn(model(), log, "closed.glb", {});

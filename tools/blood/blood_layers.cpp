@@ -146,14 +146,6 @@ Vec3d rest_place(const Mesh& source, const SourcePlace& place) {
   return sum;
 }
 
-BloodFlowOptions flow_within(double reach) {
-  BloodFlowOptions options;
-  options.length = 6 * reach;
-  options.width = 0.32 * reach;
-  options.spacing = 0.9 * reach;
-  return options;
-}
-
 /// Lays blood on the texels within its reach, and where it has run.
 /// @param flow  WoundMask::flow(), or nothing. @return whether there is any blood
 bool paint(const WoundMask& mask, std::span<const float> flow, const Mesh& source, Image& image) {
@@ -327,6 +319,14 @@ Status MeshBlood::lay_on_vertices(std::uint32_t submesh, const char* obstacle) {
 }
 
 }  // namespace
+
+BloodFlowOptions flow_within(double reach) {
+  BloodFlowOptions options;
+  options.length = 6 * reach;
+  options.width = 0.32 * reach;
+  options.spacing = 0.9 * reach;
+  return options;
+}
 
 double blood_reach(double diagonal) { return kReachOfSize * diagonal; }
 

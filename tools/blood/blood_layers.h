@@ -48,6 +48,9 @@ struct BloodOptions {
 /// @param diagonal  of its surface in the pose, metres.
 [[nodiscard]] double blood_reach(double diagonal);
 
+/// How blood runs that suits this reach.
+[[nodiscard]] BloodFlowOptions flow_within(double reach);
+
 /// Metres in bind space per metre in a pose, on the mean over a mesh; 0 if it has no area.
 [[nodiscard]] double bind_scale(const Mesh& mesh, const DeformedMesh& posed);
 

@@ -8,6 +8,8 @@
 #include "tools/command_line/number_option.h"
 #include "tools/command_line/options.h"
 #include "tools/model/model_output.h"
+#include "tools/model/name_at.h"
+#include "tools/model/quantity.h"
 #include "tools/written_weights/written_influences.h"
 
 namespace sunder::tools {
@@ -116,6 +118,18 @@ void add_wound_mask(CLI::App& verb, TearRequest& request) {
             ->capture_default_str(),
         kReach, Quantity::length)
       ->needs(file);
+  verb.add_option_function<std::vector<std::string>>(
+          "--wound-mask-channels",
+          [&request](const std::vector<std::string>& names) {
+            for (std::size_t i = 0; i < kMaskChannels.size(); ++i)
+              if (std::ranges::find(names, kMaskChannels[i]) != names.end())
+                request.wound_mask_channels.push_back(static_cast<MaskChannel>(i));
+          },
+          "Textures in grey beside it, one each of age, depth, stretch and blood")
+      ->delimiter(',')
+      ->check(CLI::IsMember(std::vector<std::string>(kMaskChannels.begin(), kMaskChannels.end())))
+      ->type_name("CHANNELS")
+      ->needs(file);
 }
 
 /// @param name  a result of influences_name().
@@ -137,6 +151,38 @@ void add_influences(CLI::App& verb, TearRequest& request) {
       ->default_str("source");
 }
 
+/// Reads "Walk@0.5" and "Walk@0.5..1.2".
+std::optional<TearRequest::OpenSpan> open_span_in(const std::string& text) {
+  const NameAt parts = split_name_at(text);
+  if (parts.name.empty() || !parts.at) return std::nullopt;
+  const std::string& clip = parts.name;
+  const std::string& times = *parts.at;
+  const std::size_t dots = times.find("..");
+  const auto begin = quantity_in(times.substr(0, dots), Quantity::time);
+  if (!begin || !(*begin >= 0)) return std::nullopt;
+  if (dots == std::string::npos) return TearRequest::OpenSpan{clip, *begin, {}};
+  const auto end = quantity_in(times.substr(dots + 2), Quantity::time);
+  if (!end || !(*end > *begin)) return std::nullopt;
+  return TearRequest::OpenSpan{clip, *begin, *end};
+}
+
+void add_open_span(CLI::App& verb, CLI::Option* open, TearRequest& request) {
+  verb.add_option_function<std::string>(
+          "--open-span",
+          [&request](const std::string& text) {
+            request.open_span = open_span_in(text);
+            if (!request.open_span)
+              throw CLI::ValidationError(
+                  "--open-span", "'" + text +
+                                     "': expected CLIP@START or CLIP@START..END, seconds, 0 or "
+                                     "more and ascending");
+          },
+          "When lips open in a clip, whatever the pose of the tear: from a moment on, or evenly "
+          "over a span")
+      ->type_name("CLIP@START[..END]")
+      ->needs(open);
+}
+
 /// A flag that may have a value after "=", so that it takes no other argument for it.
 void add_open(CLI::App& verb, TearRequest& request) {
   const auto form = std::make_shared<std::string>();
@@ -148,6 +194,7 @@ void add_open(CLI::App& verb, TearRequest& request) {
     const bool is_known = value == "morph" || value == "baked" || value == "true";
     return is_known ? std::string() : "expected --open, --open=morph or --open=baked";
   });
+  add_open_span(verb, flag, request);
   verb.add_option_function<std::string>(
           "--flesh",
           [&request](const std::string& text) {
@@ -163,6 +210,8 @@ void add_open(CLI::App& verb, TearRequest& request) {
   verb.parse_complete_callback([&verb, form, &request] {
     if (verb.count("--open") > 0)
       request.open = *form == "baked" ? OpenLips::baked : OpenLips::morph;
+    if (request.open_span && request.open == OpenLips::baked)
+      throw CLI::ValidationError("--open-span", "needs --open or --open=morph");
   });
 }
 

@@ -111,13 +111,15 @@ Result<Character> with_open_target(Character torn, const Opening& opening,
   const std::vector<NodeWeights> of_nodes = append_targets(open, std::move(*targets), nodes);
   for (std::uint32_t c = 0; c < open.clips.size(); ++c) {
     Clip& clip = open.clips[c];
-    std::optional<double> first;
+    const ClipMoment* first = nullptr;
     for (const ClipMoment& moment : moments)
-      if (moment.clip == c) first = std::min(first.value_or(moment.seconds), moment.seconds);
+      if (moment.clip == c && (first == nullptr || moment.seconds < first->seconds))
+        first = &moment;
     std::vector<WeightKey> keys;
-    if (first) keys = keys_of(opening, *first, static_cast<double>(clip.duration));
+    if (first != nullptr)
+      keys = keys_of(opening, first->seconds, static_cast<double>(clip.duration), first->end);
     for (const NodeWeights& weights : of_nodes)
-      extend_channels(weights, first ? &keys : nullptr, open.rest_morph_weights, clip);
+      extend_channels(weights, first != nullptr ? &keys : nullptr, open.rest_morph_weights, clip);
   }
   return open;
 }

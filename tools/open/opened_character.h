@@ -3,6 +3,7 @@
 #include <sunder/core/character.h>
 
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "tools/open/opening.h"
@@ -16,6 +17,7 @@ inline constexpr const char* kOpenTarget = "Open";
 struct ClipMoment {
   std::uint32_t clip = 0;
   double seconds = 0;
+  std::optional<double> end = {};  ///< Of the opening; empty: as the tissue takes.
 };
 
 /// A torn character with an opening as one more morph target of the meshes that gape. Its weight

@@ -85,11 +85,13 @@ std::vector<float> union_of(const std::vector<float>& times, std::span<const Wei
 
 }  // namespace
 
-std::vector<WeightKey> keys_of(const Opening& opening, double moment, double duration) {
+std::vector<WeightKey> keys_of(const Opening& opening, double moment, double duration,
+                               std::optional<double> end) {
   const double length = opening.course.back().seconds;
   if (!(duration > 0) || !(length > 0)) return {{0, 1}};
   double begin = std::clamp(moment, 0.0, duration);
   if (begin + kShortest > duration) begin = std::max(0.0, duration - kShortest);
+  if (end) return {{begin, 0}, {std::clamp(*end, begin + kShortest, duration), 1}};
   const double faster = std::min(1.0, (duration - begin) / length);
   std::vector<WeightKey> keys;
   for (const Opening::Moment& at : opening.course)

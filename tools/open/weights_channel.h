@@ -20,8 +20,9 @@ struct WeightKey {
 
 /// The course of an opening in a clip: 0 until `moment`, then as the opening, faster if the clip
 /// ends before. Always 1 in a clip without duration.
-[[nodiscard]] std::vector<WeightKey> keys_of(const Opening& opening, double moment,
-                                             double duration);
+/// @param end  the lips open evenly until then, not as the tissue does.
+[[nodiscard]] std::vector<WeightKey> keys_of(const Opening& opening, double moment, double duration,
+                                             std::optional<double> end = std::nullopt);
 
 /// The channel of all weights of a mesh, with one more at its end.
 /// @param old   drives consecutive weights of the mesh; null: none does.

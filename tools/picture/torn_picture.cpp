@@ -15,6 +15,7 @@
 #include "tools/model/posed_model.h"
 #include "tools/picture/open_lips.h"
 #include "tools/picture/rims.h"
+#include "tools/picture/sewn_threads.h"
 #include "tools/picture/taper_wounds.h"
 #include "tools/picture/torn_scene.h"
 #include "tools/picture/view.h"
@@ -229,6 +230,7 @@ Status draw_torn(const LoadedCharacter& loaded, std::span<const Operation> histo
   if (!blood) return blood.error();
   RenderScene scene =
       make_torn_scene({torn, *closed, open, wounds, *blood}, *looks, kThickness * diagonal);
+  add_threads(torn, open, thread_loads(*instance.body()), kThickness * diagonal, scene);
   add_surfaces(*beside, *looks, scene);
   if (cut == nullptr)
     frame = seen_wound(scene, frame, png, messages);  // A cut is seen along its plane.

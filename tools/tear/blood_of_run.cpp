@@ -1,22 +1,14 @@
 #include "tools/tear/blood_of_run.h"
 
-#include <sunder/skinning/pose.h>
-
 #include <utility>
 
-#include "tools/model/history.h"
 #include "tools/model/posed_model.h"
 #include "tools/render/png_file.h"
+#include "tools/tear/pose_of_run.h"
 #include "tools/value_of.h"
 
 namespace sunder::tools {
 namespace {
-
-/// The pose of the last operation that was not undone, or rest.
-Result<ModelPose> pose_of(const TearRun& run) {
-  const std::vector<Operation> history = value_of(run.model.history());
-  return make_pose(run.model.source(), history.empty() ? PoseSpec() : last_pose_of(history.back()));
-}
 
 void multiply_colors(std::span<const Vec3f> tints, std::span<const std::uint32_t> vertices,
                      Mesh& mesh) {
@@ -35,7 +27,7 @@ ExitCode lay_blood_of_run(TearRun& run) {
   const std::string place = run.request.model.string() + ": --blood";
   const Result<ModelLooks> looks = ModelLooks::create(run.loaded.source.get());
   if (!looks) return complain(place, looks.error(), ExitCode::internal_error);
-  const Result<ModelPose> pose = pose_of(run);
+  const Result<ModelPose> pose = pose_of_run(run);
   if (!pose) return complain(place, pose.error(), ExitCode::internal_error);
   const auto posed = pose_positions(run.model.source(), *pose);
   if (!posed) return complain(place, posed.error(), ExitCode::internal_error);

@@ -7,6 +7,7 @@
 #include "io/internal/mesh_nodes.h"
 #include "tools/messages/printed.h"
 #include "tools/model/history.h"
+#include "tools/model/name_advice.h"
 #include "tools/open/opened_character.h"
 #include "tools/open/walled_character.h"
 #include "tools/tear/blood_of_run.h"
@@ -33,13 +34,44 @@ std::vector<ClipMoment> moments_of(const TearRun& run) {
     if (const auto clip = find_named_clip(run.model.source(), in_clip->clip))
       moments.push_back({*clip, in_clip->time});
   }
+  if (const auto& span = run.request.open_span) {
+    const auto clip = find_clip(run.model.source(), span->clip);
+    if (!clip) return moments;  // Was refused by check_span().
+    std::erase_if(moments, [&](const ClipMoment& of) { return of.clip == *clip; });
+    moments.push_back({*clip, span->begin, span->end});
+  }
   return moments;
+}
+
+/// Whether the model has the clip of --open-span, and it is long enough.
+/// @return ok, or the exit code of the failure, which was reported.
+ExitCode check_span(const TearRun& run) {
+  const auto& span = run.request.open_span;
+  if (!span) return ExitCode::ok;
+  const Character& source = run.model.source();
+  const auto clip = find_clip(source, span->clip);
+  if (!clip) {
+    std::vector<std::string> names;
+    for (const Clip& of : source.clips) names.push_back(of.name);
+    return complain("--open-span",
+                    Status::failure(StatusCode::not_found, kNone, "no clip is named '%.100s'",
+                                    span->clip.c_str()),
+                    ExitCode::usage, name_advice(span->clip, "clips", names));
+  }
+  const auto duration = static_cast<double>(source.clips[*clip].duration);
+  if (span->end.value_or(span->begin) <= duration) return ExitCode::ok;
+  return complain("--open-span",
+                  Status::failure(StatusCode::invalid_argument, kNone,
+                                  "%g s is beyond the clip '%.100s', which lasts %g s",
+                                  span->end.value_or(span->begin), span->clip.c_str(), duration),
+                  ExitCode::usage);
 }
 
 }  // namespace
 
 ExitCode open_lips_of_run(TearRun& run) {
   if (run.request.open == OpenLips::no) return ExitCode::ok;
+  if (const ExitCode code = check_span(run); code != ExitCode::ok) return code;
   const std::vector<Operation> history = value_of(run.model.history());
   Result<Opening> opening = measure_opening(run.loaded.character, history);
   if (!opening)

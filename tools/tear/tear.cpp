@@ -170,6 +170,7 @@ ExitCode finish(TearRun& run, Clock::time_point begin) {
   if (const ExitCode code = choose_influences(run); code != ExitCode::ok) return code;
   if (const ExitCode code = open_lips_of_run(run); code != ExitCode::ok) return code;
   if (const ExitCode code = lay_blood_of_run(run); code != ExitCode::ok) return code;
+  if (const ExitCode code = draw_wounds_of_run(run); code != ExitCode::ok) return code;
   std::string report;
   if (request.report) {
     const Result<Json> json = report_json(run);
@@ -180,11 +181,7 @@ ExitCode finish(TearRun& run, Clock::time_point begin) {
   if (request.log) log = format_operations(value_of(run.model.history()));
   if (!log) return complain(request.log->string(), log.error(), ExitCode::usage);
   if (const ExitCode code = write_all(run, report, *log); code != ExitCode::ok) return code;
-  if (request.wound_mask && !request.dry_run) {
-    const ExitCode code = write_wound_mask(run);
-    if (code != ExitCode::ok && code != ExitCode::findings) return code;
-    run.has_findings |= code == ExitCode::findings;
-  }
+  if (const ExitCode code = write_wounds_of_run(run); code != ExitCode::ok) return code;
   if (request.picture && !request.dry_run) {
     run.budget.begin(request.picture->string());
     run.budget.allow_each(2);

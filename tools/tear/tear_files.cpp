@@ -53,6 +53,8 @@ std::vector<NamedFile> outputs_of(const TearRequest& request) {
   if (request.log) outputs.push_back({"--save-log", *request.log});
   if (request.picture) outputs.push_back({"--picture", *request.picture});
   if (request.wound_mask) outputs.push_back({"--wound-mask", *request.wound_mask});
+  for (const MaskChannel channel : request.wound_mask_channels)
+    outputs.push_back({"--wound-mask-channels", channel_file(*request.wound_mask, channel)});
   return outputs;
 }
 

@@ -7,6 +7,7 @@
 #include "tools/tear/blood_of_run.h"
 #include "tools/tear/open_lips_of_run.h"
 #include "tools/tear/weight_report.h"
+#include "tools/tear/wound_picture.h"
 #include "tools/written_weights/certified_report.h"
 #include "tools/written_weights/written_influences.h"
 
@@ -81,6 +82,7 @@ Result<Json> report_json(TearRun& run) {
   json["influences_written"] = influences_written_json(run);
   if (run.opening) json["open"] = open_lips_json(run);
   if (run.blood) json["blood"] = blood_json(run);
+  if (run.wounds) json["wound_mask"] = wounds_json(run);
   json["result"] = result;
   return json;
 }

@@ -44,6 +44,12 @@ struct RunBlood {
   BloodLayers layers;
 };
 
+/// What --wound-mask writes.
+struct RunWounds {
+  Picture mask;
+  std::vector<ChannelPicture> channels;
+};
+
 /// A model to which operations are applied, and their reports.
 struct TearRun {
   const TearRequest& request;
@@ -66,6 +72,7 @@ struct TearRun {
   std::vector<Operation> played = {};         ///< Those that met the surface, as given.
   std::optional<Opening> opening = {};        ///< With --open.
   std::optional<RunBlood> blood = {};         ///< With --blood.
+  std::optional<RunWounds> wounds = {};       ///< With --wound-mask, if a mesh has room for it.
 };
 
 }  // namespace sunder::tools

@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
 
 #include "tools/messages/output_file.h"
 #include "tools/messages/printed.h"
 #include "tools/messages/written_file.h"
+#include "tools/model/posed_model.h"
+#include "tools/tear/pose_of_run.h"
 
 namespace sunder::tools {
 namespace {
@@ -31,14 +35,19 @@ double removed_share(std::span<const float> distances, std::size_t width, std::s
   return std::clamp(0.5 - here / step, 0.0, 1.0);
 }
 
+struct WoundMasks {
+  std::vector<WoundMask> masks;
+  std::vector<std::uint32_t> meshes;  ///< Of each mask.
+};
+
 /// The masks of all meshes with texture coordinates.
 /// @return the failure of WoundMask::create().
-Result<std::vector<WoundMask>> make_masks(const TearRun& run) {
+Result<WoundMasks> make_masks(const TearRun& run) {
   const std::vector<Mesh>& meshes = run.model.source().meshes;
   WoundMaskOptions options;
   options.width = options.height = run.request.wound_mask_size;
   options.reach = run.request.wound_mask_reach;
-  std::vector<WoundMask> masks;
+  WoundMasks made;
   for (std::uint32_t m = 0; m < meshes.size(); ++m) {
     if (meshes[m].uv_sets.empty()) {
       run.messages.warn(
@@ -60,11 +69,39 @@ Result<std::vector<WoundMask>> make_masks(const TearRun& run) {
           printed("--wound-mask: %u triangles of mesh '%.100s' have no area in the "
                   "texture, or repeat it; their wounds are not in the picture",
                   notes.unpainted_triangles, meshes[m].name.c_str()));
-    masks.push_back(std::move(*mask));
+    made.masks.push_back(std::move(*mask));
+    made.meshes.push_back(m);
   }
-  if (masks.empty())
+  if (made.masks.empty())
     return Status::failure(StatusCode::not_found, kNone, "no mesh has texture coordinates");
-  return masks;
+  return made;
+}
+
+/// What the levels of a picture stand for, where they depend on the model.
+std::string meaning(const ChannelPicture& of) {
+  if (of.channel != MaskChannel::depth) return {};
+  return printed("; the level 255 is %.4g m", of.at_255);
+}
+
+/// The channels that are wanted, in the pose of the last operation; lips gape with --open.
+Result<std::vector<ChannelPicture>> draw_channels(const TearRun& run, const WoundMasks& made) {
+  std::vector<ChannelPicture> drawn;
+  if (run.request.wound_mask_channels.empty()) return drawn;
+  const Result<ModelPose> pose = pose_of_run(run);
+  if (!pose) return pose.error();
+  Result<std::vector<DeformedMesh>> posed = std::vector<DeformedMesh>();
+  if (run.opening)
+    posed = run.opening->open;
+  else
+    posed = pose_positions(run.model.character(), *pose);
+  if (!posed) return posed.error();
+  for (const MaskChannel channel : run.request.wound_mask_channels) {
+    Result<ChannelPicture> picture =
+        draw_channel({run.model, made.masks, made.meshes, *pose, *posed}, channel);
+    if (!picture) return picture.error();
+    drawn.push_back(std::move(*picture));
+  }
+  return drawn;
 }
 
 }  // namespace
@@ -89,14 +126,46 @@ Picture wound_picture(std::span<const WoundMask> masks) {
   return picture;
 }
 
-ExitCode write_wound_mask(TearRun& run) {
-  const std::filesystem::path& file = *run.request.wound_mask;
-  const Result<std::vector<WoundMask>> masks = make_masks(run);
-  if (!masks) return complain("--wound-mask", masks.error(), ExitCode::findings);
-  if (const Status status = write_png(file, wound_picture(*masks)); !status)
-    return complain(file.string(), status, ExitCode::unreadable_input);
-  run.messages.say(written(file));
+ExitCode draw_wounds_of_run(TearRun& run) {
+  if (!run.request.wound_mask || run.request.dry_run) return ExitCode::ok;
+  const Result<WoundMasks> made = make_masks(run);
+  if (!made) {
+    run.has_findings = true;
+    (void)complain("--wound-mask", made.error(), ExitCode::findings);
+    return ExitCode::ok;
+  }
+  Result<std::vector<ChannelPicture>> channels = draw_channels(run, *made);
+  if (!channels)
+    return complain("--wound-mask-channels", channels.error(), ExitCode::internal_error);
+  run.wounds = {wound_picture(made->masks), std::move(*channels)};
   return ExitCode::ok;
+}
+
+ExitCode write_wounds_of_run(const TearRun& run) {
+  if (!run.wounds) return ExitCode::ok;
+  const std::filesystem::path& mask = *run.request.wound_mask;
+  if (const Status status = write_png(mask, run.wounds->mask); !status)
+    return complain(mask.string(), status, ExitCode::unreadable_input);
+  run.messages.say(written(mask));
+  for (const ChannelPicture& of : run.wounds->channels) {
+    const std::filesystem::path file = channel_file(mask, of.channel);
+    if (const Status status = write_png(file, of.picture); !status)
+      return complain(file.string(), status, ExitCode::unreadable_input);
+    run.messages.say(written(file) + meaning(of));
+  }
+  return ExitCode::ok;
+}
+
+Json wounds_json(const TearRun& run) {
+  Json channels = Json::array();
+  for (const ChannelPicture& of : run.wounds->channels)
+    channels.push_back({{"channel", kMaskChannels[static_cast<std::size_t>(of.channel)]},
+                        {"file", channel_file(*run.request.wound_mask, of.channel).string()},
+                        {"at_0", of.at_0},
+                        {"at_255", of.at_255}});
+  return {{"file", run.request.wound_mask->string()},
+          {"reach", run.request.wound_mask_reach},
+          {"channels", std::move(channels)}};
 }
 
 }  // namespace sunder::tools

@@ -13,8 +13,16 @@ namespace sunder::tools {
 /// @param masks  of one size; at least one.
 [[nodiscard]] Picture wound_picture(std::span<const WoundMask> masks);
 
-/// Writes the picture of `--wound-mask`, and says what it cannot show.
+/// With `--wound-mask`, draws what it writes, and says what it cannot show. A model without texture
+/// coordinates is a finding.
 /// @return ok, or the exit code of the failure, which was reported.
-[[nodiscard]] ExitCode write_wound_mask(TearRun& run);
+[[nodiscard]] ExitCode draw_wounds_of_run(TearRun& run);
+
+/// Writes what was drawn.
+/// @return ok, or the exit code of the failure, which was reported.
+[[nodiscard]] ExitCode write_wounds_of_run(const TearRun& run);
+
+/// The files and the values of their levels, for the report; if something was drawn.
+[[nodiscard]] Json wounds_json(const TearRun& run);
 
 }  // namespace sunder::tools
