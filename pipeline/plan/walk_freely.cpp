@@ -13,13 +13,13 @@
 namespace sunder::plan {
 namespace {
 
-constexpr std::size_t kWidth = 16;   ///< Places that are kept at an instant.
-constexpr int kChildren = 6;         ///< That are tried from each of them.
-constexpr std::uint32_t kTries = 8;  ///< Random starts per wanted seed.
-constexpr std::size_t kStarts = 16;  ///< That are walked from.
-constexpr int kMostTried = 16'000;   ///< Places in a round.
-constexpr int kRounds = 3;           ///< Each begins where the one before came no farther.
-constexpr std::size_t kMostTracks = 3;
+constexpr std::size_t kWidth = 16;       ///< Places that are kept at an instant.
+constexpr int kChildren = 6;             ///< That are tried from each of them.
+constexpr std::uint32_t kFreeTries = 8;  ///< Random starts per wanted seed.
+constexpr std::size_t kStarts = 16;      ///< That are walked from.
+constexpr int kMostTried = 16'000;       ///< Places in a round.
+constexpr int kRounds = 3;               ///< Each begins where the one before came no farther.
+constexpr std::size_t kMostFreeTracks = 3;
 constexpr double kOfSpeed = 0.85;      ///< Share of the limits of speed that a walk uses.
 constexpr double kOfReach = 0.5;       ///< Share of the tolerance.
 constexpr double kLeastHandle = 0.1;   ///< Cosine to the surface's normal.
@@ -93,7 +93,7 @@ class FreeWalk {
       std::reverse(steps.begin(), steps.end());
       steps.insert(steps.end(), after.begin() + 1, after.end());
       tracks.push_back(track_of(steps));
-      if (tracks.size() == kMostTracks) break;
+      if (tracks.size() == kMostFreeTracks) break;
     }
     return tracks;
   }
@@ -116,7 +116,7 @@ class FreeWalk {
   /// Different values for an instant that are free, those with the most room first.
   std::vector<Step> starts_at(std::size_t instant) {
     std::vector<Step> starts;
-    for (std::uint32_t i = 0; i <= kTries * search_.seeds; ++i) {
+    for (std::uint32_t i = 0; i <= kFreeTries * search_.seeds; ++i) {
       Step start;
       if (!settle_start(i, instant, start)) continue;
       const bool is_known = std::any_of(starts.begin(), starts.end(), [&](const Step& other) {

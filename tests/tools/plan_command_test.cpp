@@ -92,6 +92,12 @@ TEST_F(PlanCommand, what_cannot_be_made_is_a_finding_and_writes_only_the_report)
   EXPECT_THAT(far.out, HasSubstr("no part of the curve"));
   EXPECT_FALSE(exists("far.glb"));
   EXPECT_EQ(read_json("far.json")["obstacles"][0]["kind"], "reach");
+  EXPECT_THAT(far.err, HasSubstr("--robot-place"));  // from where it works
+  const auto place = read_json("far.json")["base"]["robot_place"].get<std::vector<double>>();
+  ASSERT_EQ(place.size(), 3u);
+  const std::string near =
+      std::to_string(place[0]) + "," + std::to_string(place[1]) + "," + std::to_string(place[2]);
+  EXPECT_EQ(plan_with_arm(near).exit_code, 0);
 }
 
 TEST_F(PlanCommand, faults_name_what_is_wrong) {

@@ -12,7 +12,7 @@ namespace sunder::tools {
 namespace {
 
 constexpr float kReach = 0.9f, kRadius = 0.13f;  ///< Of a stitch, in thicknesses.
-constexpr std::size_t kSides = 6;
+constexpr std::size_t kThreadSides = 6;
 /// Silk, linear RGB.
 const Vec4f kThreadColor(0.012f, 0.012f, 0.016f, 1.0f);
 
@@ -75,13 +75,14 @@ class ThreadEnds {
 
 void add_tube(const std::vector<Vec3f>& line, const Vec3f& normal, float radius,
               std::uint32_t material, RenderScene& scene) {
-  std::vector<std::array<Vec3f, kSides>> rings, facings;
+  std::vector<std::array<Vec3f, kThreadSides>> rings, facings;
   for (std::size_t i = 0; i < line.size(); ++i) {
     const Vec3f along = line[std::min(i + 1, line.size() - 1)] - line[i > 0 ? i - 1 : 0];
     const Vec3f side = along.cross(normal).normalized(), up = side.cross(along).normalized();
-    std::array<Vec3f, kSides> ring, facing;
-    for (std::size_t k = 0; k < kSides; ++k) {
-      const auto angle = static_cast<float>(2 * std::numbers::pi * static_cast<double>(k) / kSides);
+    std::array<Vec3f, kThreadSides> ring, facing;
+    for (std::size_t k = 0; k < kThreadSides; ++k) {
+      const auto angle =
+          static_cast<float>(2 * std::numbers::pi * static_cast<double>(k) / kThreadSides);
       facing[k] = std::cos(angle) * side + std::sin(angle) * up;
       ring[k] = line[i] + radius * facing[k];
     }
@@ -100,8 +101,8 @@ void add_tube(const std::vector<Vec3f>& line, const Vec3f& normal, float radius,
     scene.triangles.push_back(triangle);
   };
   for (std::size_t i = 0; i + 1 < line.size(); ++i)
-    for (std::size_t k = 0; k < kSides; ++k) {
-      const std::size_t next = (k + 1) % kSides;
+    for (std::size_t k = 0; k < kThreadSides; ++k) {
+      const std::size_t next = (k + 1) % kThreadSides;
       add({{{i, k}, {i + 1, k}, {i, next}}});
       add({{{i, next}, {i + 1, k}, {i + 1, next}}});
     }

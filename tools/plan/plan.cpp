@@ -12,6 +12,7 @@
 #include "tools/messages/lines.h"
 #include "tools/messages/output_file.h"
 #include "tools/messages/overwriting.h"
+#include "tools/messages/printed.h"
 #include "tools/messages/text_file.h"
 #include "tools/messages/written_file.h"
 #include "tools/model/load_notes.h"
@@ -116,7 +117,8 @@ ExitCode make_hand(const PlanRequest& request, PlanRun& run) {
 }
 
 /// Writes trajectory, hand and report: all or none.
-ExitCode write_plan(const PlanRequest& request, const PlanRun& run, const PlannedMotion& planned) {
+ExitCode write_plan(const PlanRequest& request, const PlanRun& run, const PlannedMotion& planned,
+                    const std::optional<PlannedBase>& base) {
   std::vector<std::pair<std::filesystem::path, std::string>> files;
   if (planned.report.is_reachable) {
     const Result<std::string> csv = trajectory_csv(planned.trajectory);
@@ -124,7 +126,8 @@ ExitCode write_plan(const PlanRequest& request, const PlanRun& run, const Planne
     files.emplace_back(request.robot.trajectory, *csv);
     if (request.hand) files.emplace_back(*request.hand, run.hand);
   }
-  if (request.report) files.emplace_back(*request.report, dump(plan_json(request, planned.report)));
+  if (request.report)
+    files.emplace_back(*request.report, dump(plan_json(request, planned.report, base)));
   std::deque<StagedFile> staged;  // which cannot be moved
   for (const auto& [file, text] : files) {
     staged.emplace_back(file, bytes_of(text));
@@ -177,12 +180,24 @@ ExitCode run_plan(const PlanRequest& request) {
   const Result<PlannedMotion> planned =
       plan_motion(run.loaded.character, run.target, run.timing, run.tool, options);
   if (!planned) return complain("plan", planned.error(), ExitCode::usage);
+  std::optional<PlannedBase> base;
+  if (!planned->report.is_reachable && !request.hand) {
+    Result<std::optional<PlannedBase>> found =
+        find_base(run.loaded.character, run.target, run.timing, run.tool, options);
+    if (!found) return complain("plan", found.error(), ExitCode::usage);
+    base = std::move(*found);
+  }
   budget.reset();
-  if (const ExitCode written = write_plan(request, run, *planned); written != ExitCode::ok)
+  if (const ExitCode written = write_plan(request, run, *planned, base); written != ExitCode::ok)
     return written;
   if (request.verbosity != Verbosity::quiet) print_text(plan_summary(planned->report));
   for (const PlanObstacle& obstacle : planned->report.obstacles)
     messages.warn(obstacle_text(obstacle));
+  if (base) {
+    const Vec3d place = place_of_base(request, *base);
+    messages.warn(printed("the robot makes all of the curve with --robot-place %.6g,%.6g,%.6g",
+                          place.x(), place.y(), place.z()));
+  }
   if (!planned->report.is_reachable) return ExitCode::findings;
   const ExitCode torn = request.tear ? tear_planned(request) : ExitCode::ok;
   if (torn != ExitCode::ok) return torn;

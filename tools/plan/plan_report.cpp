@@ -64,7 +64,12 @@ std::string obstacle_text(const PlanObstacle& obstacle) {
   return printed("%.0f %% of the curve is out of reach", at);
 }
 
-Json plan_json(const PlanRequest& request, const PlanReport& report) {
+Vec3d place_of_base(const PlanRequest& request, const PlannedBase& base) {
+  return request.robot.place.translation() + base.moved;
+}
+
+Json plan_json(const PlanRequest& request, const PlanReport& report,
+               const std::optional<PlannedBase>& base) {
   Json json = {{"sunder_plan", 1},
                {"model", request.model.string()},
                {"curve", request.curve.string()},
@@ -80,6 +85,11 @@ Json plan_json(const PlanRequest& request, const PlanReport& report) {
     obstacles.push_back({{"kind", kind_name(obstacle.kind)},
                          {"value", obstacle.value.empty() ? Json() : Json(obstacle.value)},
                          {"at", obstacle.at}});
+  if (base) {
+    const Vec3d place = place_of_base(request, *base);
+    json["base"] = {{"moved", {base->moved.x(), base->moved.y(), base->moved.z()}},
+                    {"robot_place", {place.x(), place.y(), place.z()}}};
+  }
   if (!report.is_reachable) return json;
   json["cut"] = {{"seconds", report.cut}, {"begins", report.cut_begins}, {"ends", report.cut_ends}};
   json["place_error"] = error_json(report.most_place_error, report.mean_place_error);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,7 +10,12 @@
 namespace sunder::tools {
 
 /// The report as JSON.
-[[nodiscard]] Json plan_json(const PlanRequest& request, const PlanReport& report);
+/// @param base  from where the robot could make all of the curve, if it is known.
+[[nodiscard]] Json plan_json(const PlanRequest& request, const PlanReport& report,
+                             const std::optional<PlannedBase>& base);
+
+/// The value of --robot-place from where the robot could make the curve.
+[[nodiscard]] Vec3d place_of_base(const PlanRequest& request, const PlannedBase& base);
 
 /// The lines of the summary.
 [[nodiscard]] std::string plan_summary(const PlanReport& report);
