@@ -55,7 +55,7 @@ class MotionSearch {
   using Errors = Eigen::Matrix<double, 7, 1>;
   [[nodiscard]] Errors errors_at(const plan::TargetSample& sample, const Numbers& values,
                                  double depth_share);
-  /// Of a step: how fast it is, and how far the blade leans.
+  /// The cost of a step: it grows with its speed and with the lean of the blade.
   double cost_of(const plan::TargetSample& sample, const Numbers& from, const Numbers& to,
                  double seconds);
   /// @return empty if a link is inside; otherwise the room that is left, 0 to 2.

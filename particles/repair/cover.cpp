@@ -1,6 +1,7 @@
 #include "particles/repair/cover.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 
 #include "particles/clusters/band.h"
@@ -36,7 +37,7 @@ void begin_front_around(Structure& structure, Index point) {
 }
 
 /// Continues it until it has met a number of points. @return whether it has met all.
-bool go_on_around(StructureEdit& edit, std::size_t count) {
+bool go_on_around(StructureEdit& edit, std::uint64_t count) {
   RepairScratch& scratch = edit.structure().scratch;
   if (scratch.met.size() < count)
     scratch.front.run(edit.other_ring(), [&](Index point, float distance, Index) {
@@ -78,7 +79,7 @@ void go_on_covering(StructureEdit& edit, Index& points) {
     (void)go_on_around(edit, band.met_count);
   }
   const std::size_t before = met.size();
-  const bool is_done = go_on_around(edit, before + std::size_t{kMetPerVisit} * points);
+  const bool is_done = go_on_around(edit, before + std::uint64_t{kMetPerVisit} * points);
   points -= std::min(points, static_cast<Index>((met.size() - before) / kMetPerVisit));
   band.met_count = static_cast<Index>(met.size());
   if (!is_done) return;
@@ -91,7 +92,7 @@ void go_on_covering(StructureEdit& edit, Index& points) {
 Index cover(StructureEdit& edit, Index point) {
   if (is_covered(edit, point)) return 0;
   begin_front_around(edit.structure(), point);
-  (void)go_on_around(edit, std::numeric_limits<std::size_t>::max());
+  (void)go_on_around(edit, std::numeric_limits<std::uint64_t>::max());
   make_covering_particle(edit, point);
   return static_cast<Index>(edit.structure().scratch.met.size());
 }

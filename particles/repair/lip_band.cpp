@@ -124,6 +124,7 @@ Index begin_front(StructureEdit& edit) {
   Band& band = *structure.tears.band;
   band.is_begun = true;
   band.uncovered = kNone;
+  band.met_count = 0;
   std::erase_if(band.lips,
                 [&](Index point) { return edit.surface().point_corner[point] == kNone; });
   band.chains = find_lip_chains(edit.border(), structure, edit.tear(), band.lips);

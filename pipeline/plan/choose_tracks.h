@@ -12,7 +12,7 @@
 
 namespace sunder::plan {
 
-/// What tracks are found for.
+/// The inputs of a search for tracks.
 struct TrackSearch {
   std::span<const TargetSample> samples;  ///< At least one.
   const ErrorScales& scales;
@@ -41,7 +41,7 @@ struct Track {
 ///         outside of the character, of these those with the least errors and speeds.
 [[nodiscard]] std::vector<Track> follow_tracks(BladeChain& chain, const TrackSearch& search);
 
-/// What a walk minds.
+/// The constraints of a walk.
 struct WalkRules {
   bool keeps_links_outside = true;
   double speed = 1;  ///< Factor of all limits of speed.

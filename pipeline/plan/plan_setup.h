@@ -11,7 +11,7 @@
 
 namespace sunder::plan {
 
-/// What a search for a motion begins with.
+/// The parts that every search for a motion uses, made from its inputs.
 struct PlanSetup {
   BladeChain chain;
   TargetPath path;

@@ -44,7 +44,7 @@ struct RunBlood {
   BloodLayers layers;
 };
 
-/// What --wound-mask writes.
+/// The pictures that --wound-mask writes.
 struct RunWounds {
   Picture mask;
   std::vector<ChannelPicture> channels;

@@ -13,7 +13,7 @@
 
 namespace sunder::tools {
 
-/// What `--wound-mask-channels` writes beside the mask.
+/// The channels of wounds that `--wound-mask-channels` names.
 enum class MaskChannel : std::uint8_t { age, depth, stretch, blood };
 inline constexpr std::array<const char*, 4> kMaskChannels = {"age", "depth", "stretch", "blood"};
 
