@@ -25,6 +25,7 @@ struct OperationTask {
   std::optional<DetachOptions> detach;  ///< Of a detachment whose piece is wanted.
   OperationJob::Observer observer;
   std::optional<TornModel> replica;  ///< With the operation on its redo stack, once it is done.
+  std::vector<ChangeRecord> changes;  ///< What it did to the replica.
   TearReport report;
   std::shared_ptr<const DetachedPiece> piece;
   Status failure;
@@ -40,13 +41,12 @@ Status refuse(const char* why) {
 }
 
 /// Performs a detachment and keeps its piece.
-Result<TearReport> detach_piece(tear::OperationTask& task, TornModel& model,
-                                std::vector<ChangeRecord>* changes) {
+Result<TearReport> detach_piece(tear::OperationTask& task, TornModel& model) {
   const auto& operation = std::get<DetachOperation>(task.operation);
   const Result<ModelPose> pose = make_pose(model.character(), operation.pose);
   if (!pose) return pose.error();
-  ChangeRecord* const change = changes != nullptr ? &changes->emplace_back() : nullptr;
-  Result<DetachedPiece> piece = detach(model, *pose, operation.piece, *task.detach, change);
+  Result<DetachedPiece> piece =
+      detach(model, *pose, operation.piece, *task.detach, &task.changes.emplace_back());
   if (!piece) return piece.error();
   task.piece = std::make_shared<const DetachedPiece>(std::move(*piece));
   return task.piece->report;
@@ -61,12 +61,10 @@ Status run_task(tear::OperationTask& task) {
     if (Result<TearReport> done = apply_operation(*made, operation); !done) return done.error();
   if (Status status = made->set_weights(task.weights); !status) return status;
   const std::uint32_t before = made->undo_count();
-  std::vector<ChangeRecord> changes;
-  std::vector<ChangeRecord>* const wanted = task.observer ? &changes : nullptr;
-  Result<TearReport> report = task.detach ? detach_piece(task, *made, wanted)
-                                          : apply_operation(*made, task.operation, wanted);
+  Result<TearReport> report = task.detach ? detach_piece(task, *made)
+                                          : apply_operation(*made, task.operation, &task.changes);
   if (!report) return report.error();
-  if (task.observer) task.observer(*made, changes);
+  if (task.observer) task.observer(*made, task.changes);
   task.report = std::move(*report);
   if (made->undo_count() > before)
     if (Status status = made->undo(); !status) return status;
@@ -145,12 +143,15 @@ Result<TearReport> OperationJob::swap_in(TornModel& model, ChangeRecord* change)
   try {
     tear::History& from = task_->replica->state_->history;
     if (!from.undone().empty()) {
+      // It does to the model what it did to the replica: the record need not be made again.
+      const bool is_described = task_->changes.size() == 1;
       state.history.adopt_undone(from);
-      if (Status status = model.redo(change); !status) {
+      if (Status status = model.redo(is_described ? nullptr : change); !status) {
         state.history.give_back(from);
         return status;
       }
       state.history.forget_undone();
+      if (is_described && change != nullptr) *change = std::move(task_->changes[0]);
     } else if (change != nullptr) {
       *change = {};  // the operation missed
     }
