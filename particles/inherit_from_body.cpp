@@ -79,20 +79,6 @@ void inherit(BodyState& to, std::span<const PointMotion> motions) {
   to.show();
 }
 
-/// The motion at a point by the particles of a body.
-PointMotion motion_at(const BodyState& of, Index point) {
-  const ParticleInfluences& influences = of.set->influences()[point];
-  PointMotion motion;
-  motion.is_known = influences.weights[0] > 0;
-  if (!motion.is_known) return motion;
-  motion.material = of.motion.material_of[influences.particles[0]];
-  for_each_influence(influences, [&](Index p, double weight) {
-    motion.displacement += weight * of.motion.displacements[p];
-    motion.velocity += weight * of.motion.velocities[p];
-  });
-  return motion;
-}
-
 }  // namespace
 
 Status SoftBody::inherit_motion_from(std::span<const PointMotion> motions) {
@@ -113,10 +99,27 @@ Status SoftBody::inherit_motion_from(std::span<const PointMotion> motions) {
   }
 }
 
-PointMotion SoftBody::motion_of(std::uint32_t point) const {
-  SUNDER_ASSERT(point < state_->set->point_count());
-  if (state_->set->revision() != state_->revision) return {};
-  return motion_at(*state_, point);
+std::vector<PointMotion> SoftBody::particle_motions() const {
+  const BodyState& of = *state_;
+  std::vector<PointMotion> motions;
+  if (of.set->revision() != of.revision) return motions;
+  motions.reserve(of.motion.count());
+  for (Index p = 0; p < of.motion.count(); ++p)
+    motions.push_back(
+        {true, of.motion.material_of[p], of.motion.displacements[p], of.motion.velocities[p]});
+  return motions;
+}
+
+PointMotion motion_at(const ParticleInfluences& of, std::span<const PointMotion> particles) {
+  PointMotion motion;
+  motion.is_known = of.weights[0] > 0 && !particles.empty();
+  if (!motion.is_known) return motion;
+  motion.material = particles[of.particles[0]].material;
+  for_each_influence(of, [&](Index p, double weight) {
+    motion.displacement += weight * particles[p].displacement;
+    motion.velocity += weight * particles[p].velocity;
+  });
+  return motion;
 }
 
 }  // namespace sunder

@@ -109,7 +109,7 @@ void CharacterInstance::State::keep_tissue(const DetachedPiece& piece,
   if (!torn->body) return;
   try {
     (void)torn->body->displacements();  // of the particles as earlier operations left them
-    tissue = scene::tissue_of(piece, torn->model.point_count(), *torn->body);
+    tissue = scene::tissue_of(piece, *torn->particles, *torn->body);
   } catch (const std::bad_alloc&) {
     tissue = {};
   }

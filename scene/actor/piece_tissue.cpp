@@ -2,19 +2,15 @@
 
 #include <algorithm>
 
-#include "core/internal/index_set.h"
-
 namespace sunder::scene {
 
-PieceTissue tissue_of(const DetachedPiece& piece, std::uint32_t point_count, const SoftBody& body) {
+PieceTissue tissue_of(const DetachedPiece& piece, const ParticleSet& particles,
+                      const SoftBody& body) {
   PieceTissue tissue;
-  IndexSet points(point_count);
-  for (const DetachedPiece::OfMesh& of : piece.meshes)
-    for (const auto& corners : of.old_points)
-      for (const std::uint32_t point : corners) points.insert(point);
-  tissue.points = points.list();
-  tissue.motions.reserve(tissue.points.size());
-  for (const std::uint32_t point : tissue.points) tissue.motions.push_back(body.motion_of(point));
+  const std::span<const ParticleInfluences> influences = particles.influences();
+  tissue.influences.reserve(piece.points.size());
+  for (const std::uint32_t point : piece.points) tissue.influences.push_back(influences[point]);
+  tissue.particles = body.particle_motions();
   return tissue;
 }
 
@@ -22,9 +18,11 @@ std::vector<PointMotion> motions_of(const DetachedPiece& piece, const PieceTissu
                                     const Character& character, const ParticleSet& particles) {
   std::vector<PointMotion> motions(particles.point_count());
   const auto note = [&](std::uint32_t point, std::uint32_t old_point) {
-    const auto at = std::lower_bound(tissue.points.begin(), tissue.points.end(), old_point);
-    if (point != kNone && at != tissue.points.end() && *at == old_point)
-      motions[point] = tissue.motions[static_cast<std::size_t>(at - tissue.points.begin())];
+    if (point == kNone) return;
+    const auto at = std::ranges::lower_bound(piece.points, old_point);
+    const auto place = static_cast<std::size_t>(at - piece.points.begin());
+    if (place < tissue.influences.size() && *at == old_point)
+      motions[point] = motion_at(tissue.influences[place], tissue.particles);
   };
   for (std::size_t m = 0; m < piece.meshes.size() && m < character.meshes.size(); ++m) {
     const std::vector<Triangle>& triangles = character.meshes[m].triangles;

@@ -5,8 +5,8 @@
 namespace sunder::scene {
 
 /// The motion of tissue at the points of a piece, which the particles have not followed yet.
-/// @param point_count  of the torn model. @throws std::bad_alloc
-[[nodiscard]] PieceTissue tissue_of(const DetachedPiece& piece, std::uint32_t point_count,
+/// @param particles  of the body. O(points of the piece + particles). @throws std::bad_alloc
+[[nodiscard]] PieceTissue tissue_of(const DetachedPiece& piece, const ParticleSet& particles,
                                     const SoftBody& body);
 
 /// That motion at the points of a soft instance of the piece. @throws std::bad_alloc

@@ -92,6 +92,7 @@ Result<DetachedPiece> make_piece(const std::vector<Index>& faces, const ModelPos
   }
   character.meshes = std::move(meshes.meshes);
   piece.meshes = std::move(meshes.maps);
+  piece.points = std::move(meshes.points);
   piece.character = std::make_shared<const Character>(std::move(character));
   return piece;
 }

@@ -79,6 +79,16 @@ void copy_triangles(const Mesh& from, const std::vector<Index>& triangles,
   for (Index& submesh : to.triangle_submesh) submesh = submeshes[submesh];
 }
 
+/// Ascending.
+std::vector<Index> points_of(const std::vector<DetachedPiece::OfMesh>& maps,
+                             const Surface& surface) {
+  IndexSet points(surface.point_count());
+  for (const DetachedPiece::OfMesh& map : maps)
+    for (const auto& corners : map.old_points)
+      for (const Index point : corners) points.insert(point);
+  return points.list();
+}
+
 /// The triangles of a piece, per mesh of the model; the vertices are left out.
 std::vector<DetachedPiece::OfMesh> make_triangle_maps(const std::vector<Index>& faces,
                                                       const SurfaceEditor& editor) {
@@ -117,6 +127,7 @@ std::vector<Index> vertices_of(const std::vector<Index>& triangles, const Mesh& 
 PieceMeshes copy_meshes(const std::vector<Index>& faces, const SurfaceEditor& editor) {
   PieceMeshes piece;
   piece.maps = make_triangle_maps(faces, editor);
+  piece.points = points_of(piece.maps, editor.surface());
   for (const DetachedPiece::OfMesh& map : piece.maps)
     piece.skins.push_back(editor.character().meshes[map.mesh].skin);
   sort_and_unite(piece.skins);

@@ -9,8 +9,9 @@ namespace sunder::tear {
 /// The meshes of a piece as the torn model has them, and which skins they use.
 struct PieceMeshes {
   std::vector<DetachedPiece::OfMesh> maps;
-  std::vector<Mesh> meshes;  ///< Mesh::skin is an index in `skins`; slots are those of the model.
-  std::vector<Index> skins;  ///< Of the model, ascending.
+  std::vector<Mesh> meshes;   ///< Mesh::skin is an index in `skins`; slots are those of the model.
+  std::vector<Index> skins;   ///< Of the model, ascending.
+  std::vector<Index> points;  ///< Of the model, ascending.
 };
 
 /// @param faces  ascending. O(faces), and two bits per vertex of the mesh; memory for an index per

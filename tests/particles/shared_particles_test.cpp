@@ -383,7 +383,7 @@ TEST(soft_body, inherits_the_motion_of_another_body) {
   from.run(0.1);
   std::vector<PointMotion> motions(to.set->point_count());
   for (std::uint32_t point = 0; point < motions.size(); ++point)
-    motions[point] = from.body->motion_of(point);
+    motions[point] = motion_at(from.set->influences()[point], from.body->particle_motions());
   const Status status = to.body->inherit_motion_from(motions);
   ASSERT_TRUE(status) << status.text();
   double most = 0, error = 0;

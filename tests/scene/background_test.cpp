@@ -154,10 +154,11 @@ TEST(background, a_detached_piece_is_the_one_of_a_call_in_its_frame) {
     EXPECT_EQ(result.piece->model_from_piece.matrix(), expected.model_from_piece.matrix());
     EXPECT_EQ(result.piece->inertia_piece, expected.inertia_piece);
     ASSERT_NE(result.tissue, nullptr);
-    EXPECT_EQ(result.tissue->points, tissue.points);
-    ASSERT_EQ(result.tissue->motions.size(), tissue.motions.size());
-    for (std::size_t i = 0; i < tissue.motions.size(); ++i)
-      ASSERT_EQ(result.tissue->motions[i].displacement, tissue.motions[i].displacement) << i;
+    EXPECT_EQ(result.piece->points, expected.points);
+    EXPECT_EQ(result.tissue->influences, tissue.influences);
+    ASSERT_EQ(result.tissue->particles.size(), tissue.particles.size());
+    for (std::size_t i = 0; i < tissue.particles.size(); ++i)
+      ASSERT_EQ(result.tissue->particles[i].displacement, tissue.particles[i].displacement) << i;
     ASSERT_EQ(result.piece->character == nullptr, motion == PieceMotion::none);
     ASSERT_EQ(result.asset == nullptr, motion == PieceMotion::none);
     if (motion != PieceMotion::none) {

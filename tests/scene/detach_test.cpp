@@ -191,8 +191,8 @@ TEST(DetachFromInstance, a_piece_keeps_the_motion_of_its_tissue) {
     options.motion = motion;
     const auto piece = scene.instance.detach(scene.pose, place, options, nullptr, &tissue);
     ASSERT_TRUE(piece) << piece.error().text();
-    ASSERT_EQ(tissue.points.size(), tissue.motions.size());
-    ASSERT_FALSE(tissue.points.empty());
+    ASSERT_EQ(tissue.influences.size(), piece->points.size());
+    ASSERT_FALSE(piece->points.empty());
     CharacterInstance detached = DetachCase::make(piece->character, true);
     ASSERT_TRUE(detached.inherit_motion(*piece, tissue));
 
@@ -202,16 +202,18 @@ TEST(DetachFromInstance, a_piece_keeps_the_motion_of_its_tissue) {
     for (std::size_t t = 0; t < triangles.size(); ++t)
       for (std::size_t corner = 0; corner < 3; ++corner) {
         const std::uint32_t old_point = piece->meshes[0].old_points[t][corner];
-        const auto at = std::lower_bound(tissue.points.begin(), tissue.points.end(), old_point);
-        ASSERT_TRUE(at != tissue.points.end() && *at == old_point);
-        const PointMotion& of =
-            tissue.motions[static_cast<std::size_t>(at - tissue.points.begin())];
+        const auto at = std::ranges::lower_bound(piece->points, old_point);
+        ASSERT_TRUE(at != piece->points.end() && *at == old_point);
+        const auto i = static_cast<std::size_t>(at - piece->points.begin());
+        const PointMotion of = motion_at(tissue.influences[i], tissue.particles);
         if (!of.is_known) continue;
         const std::uint32_t point = points[triangles[t][corner]];
         wanted.push_back(of.displacement);
         missing.push_back(of.displacement - detached.body()->point_displacement(point));
         wanted_velocities.push_back(of.velocity);
-        missing_velocities.push_back(of.velocity - detached.body()->motion_of(point).velocity);
+        const ParticleInfluences& influences = detached.particles()->influences()[point];
+        missing_velocities.push_back(
+            of.velocity - motion_at(influences, detached.body()->particle_motions()).velocity);
       }
     ASSERT_GT(magnitude(wanted), 0);
     ASSERT_GT(magnitude(wanted_velocities), 0);
@@ -226,11 +228,11 @@ TEST(DetachFromInstance, a_piece_keeps_the_motion_of_its_tissue) {
 TEST(DetachFromInstance, a_hard_piece_has_no_motion_of_tissue) {
   DetachCase scene(false);
   PieceTissue tissue;
-  tissue.points = {1};
+  tissue.influences.emplace_back();
   const PieceNear place = scene.cut_off();
   const auto piece = scene.instance.detach(scene.pose, place, {}, nullptr, &tissue);
   ASSERT_TRUE(piece);
-  EXPECT_TRUE(tissue.points.empty());
+  EXPECT_TRUE(tissue.influences.empty());
   CharacterInstance detached = DetachCase::make(piece->character, false);
   EXPECT_EQ(detached.inherit_motion(*piece, tissue).code(), StatusCode::invalid_argument);
 }

@@ -89,6 +89,11 @@ struct PointMotion {
   Vec3d displacement = Vec3d::Zero(), velocity = Vec3d::Zero();
 };
 
+/// The motion at a point that particles move; unknown where none does.
+/// @param particles  SoftBody::particle_motions(). Unchecked: `of` names some of these.
+[[nodiscard]] SUNDER_API PointMotion motion_at(const ParticleInfluences& of,
+                                               std::span<const PointMotion> particles);
+
 /// The motion of a ParticleSet: each particle has a displacement and a velocity relative to its
 /// rest. A damped spring pulls it to its rest, and its neighbours pull at it: the finite volumes of
 /// the membrane that SoftMaterial describes. The return spring is
@@ -164,13 +169,13 @@ class SUNDER_API SoftBody {
   /// Gives each particle the displacement and velocity at its points, and the material there if
   /// this body has one of that index: for a piece that a tear separated and that becomes a body of
   /// its own. Nothing else acts on it yet.
-  /// @param motions  per point of this body's set; unknown ones are left out: motion_of() of the
-  ///                 other body, kept if that changes first.
+  /// @param motions  per point of this body's set; unknown ones are left out: motion_at() with the
+  ///                 particle_motions() of the other body, kept if that changes first.
   /// @return size_mismatch, non_finite_value, limit_exceeded. O(points), allocates.
   Status inherit_motion_from(std::span<const PointMotion> motions);
-  /// The motion at a point of the set, unchecked; unknown where no particle moves it, and before
-  /// displacements() or step() has followed the set.
-  [[nodiscard]] PointMotion motion_of(std::uint32_t point) const;
+  /// The motion of each particle; empty before displacements() or step() has followed the set.
+  /// O(particles). @throws std::bad_alloc
+  [[nodiscard]] std::vector<PointMotion> particle_motions() const;
 
   // ---- Motion.
 

@@ -60,8 +60,8 @@ using SceneCommand =
 
 /// How the tissue of a piece moved when it was detached.
 struct PieceTissue {
-  std::vector<std::uint32_t> points;  ///< Of the torn model, ascending: DetachedPiece::old_points.
-  std::vector<PointMotion> motions;   ///< One per point.
+  std::vector<ParticleInfluences> influences;  ///< One per point of DetachedPiece::points.
+  std::vector<PointMotion> particles;          ///< The motion of each, by which motion_at() works.
 };
 
 /// The number of a command, ascending in the order of Scene::submit().

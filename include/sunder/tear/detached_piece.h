@@ -49,7 +49,8 @@ struct DetachedPiece {
   /// skeleton, clips and morph weights of the model, so the same poses fit; skins have the bones
   /// that move the piece. Null for PieceMotion::none.
   std::shared_ptr<const Character> character;
-  std::vector<OfMesh> meshes;  ///< One per mesh of the character, ascending.
+  std::vector<OfMesh> meshes;         ///< One per mesh of the character, ascending.
+  std::vector<std::uint32_t> points;  ///< The surface points in `old_points`, ascending.
   /// The frame of a frozen piece in the pose of the detachment; otherwise the identity.
   Affine3d model_from_piece = Affine3d::Identity();
   /// In model space, in the pose of the detachment.
