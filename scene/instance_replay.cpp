@@ -17,4 +17,12 @@ Status InstanceReplay::apply(const Operation& operation) {
 
 Status InstanceReplay::undo() { return state_.torn->model.undo(); }
 
+Status InstanceReplay::draw() {
+  if (state_.pose.model_from_bone.empty()) return {};
+  state_.needs_draw = true;
+  Status status = state_.draw({});
+  state_.needs_draw = true;
+  return status;
+}
+
 }  // namespace sunder::scene

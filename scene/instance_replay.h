@@ -15,6 +15,10 @@ class InstanceReplay {
   /// @return as apply_operation().
   Status apply(const Operation& operation);
   Status undo();
+  /// Makes what the first drawing makes, so that the frame that shows the instance first need not.
+  /// The next draw() still counts as one that changes vertices. Does nothing without a pose.
+  /// @return as CharacterInstance::draw().
+  Status draw();
 
  private:
   CharacterInstance::State& state_;

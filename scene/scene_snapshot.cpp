@@ -130,6 +130,8 @@ Result<std::unique_ptr<Actor>> revive(const SavedInstance& saved,
   if (Status status = actor->restore(saved.actor, now); !status) return status;
   if (saved.tissue)
     if (Status status = actor->instance.restore_tissue(*saved.tissue); !status) return status;
+  if (saved.actor.is_visible)
+    if (Status status = InstanceReplay(actor->instance).draw(); !status) return status;
   if (Status status = budget.take_memory(actor->memory_bytes()); !status) return status;
   return actor;
 }

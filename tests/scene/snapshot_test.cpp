@@ -221,6 +221,27 @@ TEST(snapshot, a_snapshot_loaded_on_another_thread_is_exchanged_with_a_scene) {
   ASSERT_TRUE(other.update(kFrame));
 }
 
+/// What the first drawing makes is made where the snapshot is loaded.
+TEST(snapshot, the_first_frame_of_a_loaded_scene_makes_nothing_new) {
+  const Assets assets = make_assets(true);
+  Scene scene = torn_scene(assets);
+  const InstanceId visible = scene.drawn()[0];
+  const InstanceId hidden = value_of(scene.spawn(assets[0]));
+  ASSERT_TRUE(scene.set_visible(hidden, false) && scene.update(kFrame));
+  LoadedSnapshot loaded = value_of(LoadedSnapshot::create(value_of(scene.save()), assets));
+  Scene other = one_thread_scene();
+  ASSERT_TRUE(other.restore(loaded));
+  const std::size_t before = std::as_const(other).find(visible)->memory_bytes();
+  ASSERT_TRUE(other.update(0));  // no pose changes, yet a caller whose buffers are empty must draw
+  ASSERT_EQ(other.drawn().size(), 1u);
+  EXPECT_EQ(other.drawn()[0], visible);
+  EXPECT_EQ(std::as_const(other).find(visible)->memory_bytes(), before);
+  EXPECT_FALSE(other.mesh(visible, 0).positions.empty());
+  EXPECT_TRUE(other.mesh(hidden, 0).positions.empty());
+  ASSERT_TRUE(scene.update(0));
+  ASSERT_NO_FATAL_FAILURE(expect_same(scene, other, {visible}));
+}
+
 TEST(snapshot, soft_and_rigid_assets_of_a_character_are_told_apart) {
   const Assets assets = {make_assets(false)[0], make_assets(true)[0]};
   Scene scene = one_thread_scene();
