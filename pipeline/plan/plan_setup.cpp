@@ -49,6 +49,10 @@ SplineLimits spline_limits(const BladeChain& chain, const PlanOptions& options) 
 
 }  // namespace
 
+double usual_tolerance(const Character& character, const TargetPath& path, const ModelPose& pose) {
+  return std::max(kTolerance * path.length(), kLeastTolerance * diagonal_of(character, pose));
+}
+
 Result<PlanSetup> PlanSetup::create(const std::shared_ptr<const Character>& character,
                                     const WoundTarget& target, const PlanTiming& timing,
                                     const PlanTool& tool, const PlanOptions& options) {
@@ -62,9 +66,7 @@ Result<PlanSetup> PlanSetup::create(const std::shared_ptr<const Character>& char
   if (const Status status = check_shapes(tool); !status) return status;
   SplineLimits limits = spline_limits(*chain, options);
   PlanSetup setup{std::move(*chain), std::move(*path), options.tolerance, {}, std::move(limits)};
-  if (setup.tolerance == 0)
-    setup.tolerance = std::max(kTolerance * setup.path.length(),
-                               kLeastTolerance * diagonal_of(*character, *pose));
+  if (setup.tolerance == 0) setup.tolerance = usual_tolerance(*character, setup.path, *pose);
   setup.scales.place = kPlaceScale * setup.tolerance;
   setup.scales.depth = kDepthScale * *std::min_element(target.depth.begin(), target.depth.end());
   return setup;

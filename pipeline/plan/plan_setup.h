@@ -11,6 +11,10 @@
 
 namespace sunder::plan {
 
+/// What PlanOptions::tolerance of 0 stands for, metres.
+[[nodiscard]] double usual_tolerance(const Character& character, const TargetPath& path,
+                                     const ModelPose& pose);
+
 /// The parts that every search for a motion uses, made from its inputs.
 struct PlanSetup {
   BladeChain chain;

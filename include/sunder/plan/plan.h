@@ -7,10 +7,12 @@
 #include <sunder/tear/contact.h>
 #include <sunder/tear/report.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -143,6 +145,61 @@ struct PlannedMotion {
 [[nodiscard]] SUNDER_API Result<PlannedMotion> plan_motion(
     const std::shared_ptr<const Character>& character, const WoundTarget& target,
     const PlanTiming& timing, const PlanTool& tool, const PlanOptions& options = {});
+
+/// Speed and smoothness of a stroke, between 10 and 90 % of the part of the curve that it cuts.
+struct StrokePace {
+  double seconds = 0;  ///< From the first to the last blade in the surface.
+  /// Along the curve, metres per second; wanted: where it is even in PlanTiming::cut.
+  double speed = 0, wanted_speed = 0;
+  /// Of the times that 16 equal parts take: standard deviation over mean. 0: even.
+  double unevenness = 0;
+  /// Log dimensionless jerk (Balasubramanian et al. 2012) of the place of the blade that is at the
+  /// surface on average, the nearer to 0 the smoother; wanted: that of the curve at the same times,
+  /// or of a straight reach of least jerk where that one is greater. Empty for fewer than 16 blades
+  /// there.
+  std::optional<double> log_jerk, wanted_log_jerk;
+};
+
+/// How far a stroke that was performed is from the one that was asked for.
+struct StrokeScore {
+  /// At most, and on average over the way that the blade cuts.
+  struct Error {
+    double most = 0, mean = 0;
+  };
+  /// From 0 to 100. The whole: docs/plan.md.
+  struct Marks {
+    double whole = 0, covered = 0, place = 0, depth = 0, angle = 0;
+    std::optional<double> speed, smoothness;  ///< Empty if they are not known.
+  };
+  double curve_length = 0, tolerance = 0;  ///< Metres.
+  std::size_t blades = 0;                  ///< Of the stroke that cross the surface inwards.
+  bool is_backwards = false;               ///< It was made from the curve's end to its begin.
+  double covered = 0;  ///< Share of the curve that it cuts, up to five tolerances beside it.
+  Error place;         ///< Between the blade's entry and the curve, metres.
+  /// Of the tip, metres; 0 where it is not. The first and last 3 % of the curve do not count.
+  Error too_deep, too_shallow;
+  double wanted_depth = 0;  ///< On average, metres.
+  Error angle;              ///< Between the blade and the wanted one, radians.
+  std::optional<StrokePace> pace;
+  Marks marks;
+};
+
+/// Compares a stroke that was performed, by a robot, a hand or a controller, with what was asked
+/// for: what a tutor would say about it.
+/// @param timing     its pose lays the curve on the surface; its cut gives the speed. Slower is no
+///                   fault with PlanTiming::may_take_longer.
+/// @param performed  the blades, and the pose of the character at each of them: that of
+///                   tear_of_sweep(), or of a log.
+/// @param times      one per blade, seconds, increasing; or empty: neither speed nor smoothness are
+///                   judged.
+/// @param tolerance  metres; 0: as PlanOptions::tolerance.
+/// @return the failures of plan_motion() for character, target and timing; empty_input for fewer
+///         than two blades; size_mismatch, non_finite_value or invalid_argument, which name the
+///         blade. O(blades x (pose + 240)). Allocates.
+[[nodiscard]] SUNDER_API Result<StrokeScore> score_stroke(
+    const std::shared_ptr<const Character>& character, const WoundTarget& target,
+    const PlanTiming& timing, const TearOperation& performed, std::span<const double> times = {},
+    double tolerance = 0);
 
 /// Where a robot could stand to make a curve, and what it does there.
 struct PlannedBase {
