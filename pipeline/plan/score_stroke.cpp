@@ -19,15 +19,16 @@ namespace sunder {
 namespace plan {
 namespace {
 
-constexpr std::size_t kSteps = 241;  ///< Even places of the curve that blades are aligned with.
+constexpr std::size_t kCurveSteps =
+    241;  ///< Even places of the curve that blades are aligned with.
 /// Errors for which a mark is 0.
 constexpr double kFarBeside = 5;  ///< Tolerances. What is farther away does not cover the curve.
 constexpr double kFarAngle = std::numbers::pi / 4;
 constexpr double kFarSpeed = 4;    ///< Times as fast, or as slow.
 constexpr double kFarLogJerk = 4;  ///< Below the wanted one.
 /// Shares of the marks in the whole one, which is what they give times what is covered.
-constexpr double kOfPlace = 0.35, kOfDepth = 0.25, kOfAngle = 0.1, kOfSpeed = 0.15,
-                 kOfSmoothness = 0.15;
+constexpr double kShareOfPlace = 0.35, kShareOfDepth = 0.25, kShareOfAngle = 0.1,
+                 kShareOfSpeed = 0.15, kShareOfSmoothness = 0.15;
 
 Status check_performed(const TearOperation& performed, std::span<const double> times) {
   const std::size_t count = performed.stroke.size();
@@ -134,9 +135,9 @@ class Scorer {
 
   /// The even places of the curve in a pose.
   static std::vector<TargetSample> even_samples(const TargetPath& path, const PosedPath& posed) {
-    std::vector<TargetSample> samples(kSteps);
-    for (std::size_t i = 0; i < kSteps; ++i) {
-      samples[i].share = static_cast<double>(i) / (kSteps - 1);
+    std::vector<TargetSample> samples(kCurveSteps);
+    for (std::size_t i = 0; i < kCurveSteps; ++i) {
+      samples[i].share = static_cast<double>(i) / (kCurveSteps - 1);
       path.sample(posed, 0, samples[i]);
     }
     return samples;
@@ -187,7 +188,7 @@ class Scorer {
   }
 
   void align(bool is_closed) {
-    AlignedStroke aligned = align_stroke(squares_, kSteps, is_closed);
+    AlignedStroke aligned = align_stroke(squares_, kCurveSteps, is_closed);
     steps_ = std::move(aligned.steps);
     score_.is_backwards = aligned.is_backwards;
     for (std::size_t i = 1; i < entries_.size(); ++i) {
@@ -251,11 +252,11 @@ class Scorer {
   /// Writes the share of an entry, beside its step, and its distance from the curve.
   void find_share(const std::vector<TargetSample>& samples, std::size_t i, bool is_closed) {
     Entry& entry = entries_[i];
-    const std::size_t last = is_closed ? 2 * (kSteps - 1) : kSteps - 1;
+    const std::size_t last = is_closed ? 2 * (kCurveSteps - 1) : kCurveSteps - 1;
     entry.beside = std::numeric_limits<double>::infinity();
     const auto at = [&](std::size_t step) -> const Vec3d& {
-      const std::size_t on = step < kSteps ? step : step - (kSteps - 1);
-      return samples[score_.is_backwards ? kSteps - 1 - on : on].place;
+      const std::size_t on = step < kCurveSteps ? step : step - (kCurveSteps - 1);
+      return samples[score_.is_backwards ? kCurveSteps - 1 - on : on].place;
     };
     for (std::size_t step = std::max<std::size_t>(steps_[i], 1) - 1;
          step < std::min(steps_[i] + 1, last); ++step) {
@@ -266,7 +267,7 @@ class Scorer {
       const double beside = (at(step) + part * along - entry.place).norm();
       if (beside >= entry.beside) continue;
       entry.beside = beside;
-      entry.share = (static_cast<double>(step) + part) / (kSteps - 1);
+      entry.share = (static_cast<double>(step) + part) / (kCurveSteps - 1);
     }
     if (i > 0) entry.share = std::max(entry.share, entries_[i - 1].share);
   }
@@ -305,15 +306,16 @@ class Scorer {
       marks.depth = mark(score_.too_deep.mean + score_.too_shallow.mean, score_.wanted_depth);
     marks.angle = mark(score_.angle.mean, kFarAngle);
     if (score_.pace) mark_pace(*score_.pace);
-    double sum = kOfPlace * marks.place + kOfDepth * marks.depth + kOfAngle * marks.angle;
-    double of = kOfPlace + kOfDepth + kOfAngle;
+    double sum =
+        kShareOfPlace * marks.place + kShareOfDepth * marks.depth + kShareOfAngle * marks.angle;
+    double of = kShareOfPlace + kShareOfDepth + kShareOfAngle;
     const auto add = [&](const std::optional<double>& part, double share) {
       if (!part) return;
       sum += share * *part;
       of += share;
     };
-    add(marks.speed, kOfSpeed);
-    add(marks.smoothness, kOfSmoothness);
+    add(marks.speed, kShareOfSpeed);
+    add(marks.smoothness, kShareOfSmoothness);
     marks.whole = score_.covered * sum / of;
   }
 

@@ -7,13 +7,13 @@ namespace sunder::plan {
 namespace {
 
 /// What is judged: the blade gains speed before, and loses it afterwards.
-constexpr double kBegin = 0.1, kEnd = 0.9;
-constexpr std::size_t kParts = 16;  ///< Of that, whose times are compared.
-constexpr double kStep = 0.02;      ///< Seconds between the places whose differences are taken,
-constexpr double kLeastSteps = 24;  ///< or so many, but not
-constexpr double kOfRecording = 2;  ///< less than so many times what is between blades,
-constexpr double kFewestSteps = 8;  ///< and not fewer.
-constexpr int kAveraged = 8;        ///< Places of a step that are averaged.
+constexpr double kEvenBegin = 0.1, kEvenEnd = 0.9;
+constexpr std::size_t kEvenParts = 16;  ///< Of that, whose times are compared.
+constexpr double kJerkStep = 0.02;      ///< Seconds between the places whose differences are taken,
+constexpr double kLeastSteps = 24;      ///< or so many, but not
+constexpr double kOfRecording = 2;      ///< less than so many times what is between blades,
+constexpr double kFewestSteps = 8;      ///< and not fewer.
+constexpr int kAveragedOfStep = 8;      ///< Places of a step that are averaged.
 /// Of a straight reach of least jerk (Flash and Hogan 1985): 720 D^2 / T^5 for a distance D, whose
 /// greatest speed is 1.875 D / T.
 constexpr double kReachJerk = 720 / (1.875 * 1.875);
@@ -36,10 +36,10 @@ std::vector<Vec3d> resampled(std::span<const double> times, std::span<const Vec3
   const double step = (end - begin) / static_cast<double>(steps);
   std::vector<Vec3d> even(steps + 1, Vec3d::Zero());
   for (std::size_t i = 0; i <= steps; ++i)
-    for (int k = 0; k < kAveraged; ++k) {
-      const double part = (k + 0.5) / kAveraged - 0.5;
+    for (int k = 0; k < kAveragedOfStep; ++k) {
+      const double part = (k + 0.5) / kAveragedOfStep - 0.5;
       const double time = begin + (static_cast<double>(i) + part) * step;
-      even[i] += between<Vec3d>(times, places, time) / kAveraged;
+      even[i] += between<Vec3d>(times, places, time) / kAveragedOfStep;
     }
   return even;
 }
@@ -57,7 +57,7 @@ double dimensionless_jerk(const std::vector<Vec3d>& places, double seconds) {
   return fastest > 0 ? seconds * seconds * seconds / (fastest * fastest) * sum : 0;
 }
 
-/// The even part of a stroke: when it begins and ends, and the times at its kParts + 1 borders.
+/// The even part of a stroke: when it begins and ends, and the times at its kEvenParts + 1 borders.
 struct EvenPart {
   double length = 0;  ///< Share of the curve.
   std::vector<double> borders;
@@ -65,11 +65,11 @@ struct EvenPart {
 
 EvenPart even_part(std::span<const PacedBlade> blades) {
   const double first = blades.front().share, whole = blades.back().share - first;
-  EvenPart part{(kEnd - kBegin) * whole, {}};
+  EvenPart part{(kEvenEnd - kEvenBegin) * whole, {}};
   std::size_t next = 0;
-  for (std::size_t i = 0; i <= kParts; ++i) {
-    const double share =
-        first + whole * (kBegin + (kEnd - kBegin) * static_cast<double>(i) / kParts);
+  for (std::size_t i = 0; i <= kEvenParts; ++i) {
+    const double share = first + whole * (kEvenBegin + (kEvenEnd - kEvenBegin) *
+                                                           static_cast<double>(i) / kEvenParts);
     while (next + 1 < blades.size() && blades[next].share < share) ++next;
     double time = blades[next].time;
     if (next > 0 && blades[next].share > share) {
@@ -84,13 +84,13 @@ EvenPart even_part(std::span<const PacedBlade> blades) {
 
 /// Standard deviation of the times that equal parts take, over their mean.
 double unevenness_of(const std::vector<double>& borders) {
-  const double mean = (borders.back() - borders.front()) / kParts;
+  const double mean = (borders.back() - borders.front()) / kEvenParts;
   double sum = 0;
-  for (std::size_t i = 1; i <= kParts; ++i) {
+  for (std::size_t i = 1; i <= kEvenParts; ++i) {
     const double off = borders[i] - borders[i - 1] - mean;
     sum += off * off;
   }
-  return std::sqrt(sum / kParts) / mean;
+  return std::sqrt(sum / kEvenParts) / mean;
 }
 
 }  // namespace
@@ -110,7 +110,7 @@ StrokePace pace_of(std::span<const PacedBlade> blades, std::span<const Vec3d> pl
   const auto recorded = std::count_if(times.begin(), times.end(),
                                       [&](double time) { return time >= begin && time <= end; });
   const double most = static_cast<double>(recorded) / kOfRecording;
-  const double steps = std::floor(std::min(std::max(seconds / kStep, kLeastSteps), most));
+  const double steps = std::floor(std::min(std::max(seconds / kJerkStep, kLeastSteps), most));
   if (steps < kFewestSteps) return pace;
   const auto count = static_cast<std::size_t>(steps);
   std::vector<Vec3d> ideals;

@@ -55,8 +55,9 @@ struct PlanTool {
   MountedBlade blade;
   Affine3d world_from_root = Affine3d::Identity();  ///< In the character's model space.
   /// Shapes of links, bones being links: those that fit_colliders() finds around the robot's
-  /// character. They stay outside of the character but for those of the blade's link. Links without
-  /// a shape may be anywhere.
+  /// character. They stay outside of the character but for those of the blade's link, and outside
+  /// of one another but for those of neighbours and those that overlap anyway: docs/plan.md. Links
+  /// without a shape may be anywhere.
   std::vector<BoneCollider> shapes;
 };
 
@@ -83,11 +84,12 @@ struct ValueMargin {
 /// The reason why a motion is not possible.
 struct PlanObstacle {
   enum class Kind : std::uint8_t {
-    joint_limit,   ///< Without the limit of `value` the blade would come there.
-    joint_speed,   ///< `value` would have to move faster than its limit.
-    acceleration,  ///< `value` would have to accelerate more than is allowed.
-    reach,         ///< No values of the joints, within limits or not, bring the blade there.
-    collision,     ///< The link `value` would be inside the character.
+    joint_limit,     ///< Without the limit of `value` the blade would come there.
+    joint_speed,     ///< `value` would have to move faster than its limit.
+    acceleration,    ///< `value` would have to accelerate more than is allowed.
+    reach,           ///< No values of the joints, within limits or not, bring the blade there.
+    collision,       ///< The link `value` would be inside the character.
+    self_collision,  ///< The links `value` and `other` would be inside one another.
     /// Joints follow the curve, but the tear does not: the blade meets other parts of the surface,
     /// or the surface along the curve is not connected.
     wound,
@@ -95,7 +97,8 @@ struct PlanObstacle {
   Kind kind = Kind::reach;
   /// Name in Robot::values, or of a link; empty for `reach` and `wound`.
   std::string value;
-  double at = 0;  ///< Share of the curve's length where it is met.
+  double at = 0;           ///< Share of the curve's length where it is met.
+  std::string other = {};  ///< Name of the second link of a `self_collision`.
 };
 
 struct PlanReport {
@@ -120,6 +123,9 @@ struct PlanReport {
   /// Least distance of a link's shape from the character at 65 times, metres; infinity without
   /// shapes, and if no link comes near.
   double least_clearance = 0;
+  /// Least distance of the shapes of two links that are no neighbours, at 257 times, metres; at
+  /// most ten times PlanOptions::clearance. Infinity if no two could meet.
+  double least_self_clearance = 0;
   /// The motion tears a copy. Largest and mean distance of its lips and the curve from one another,
   /// metres, in the pose in which the cut begins, and the largest one in all sampled poses of
   /// all clips. Infinity if it tears nothing; 0 if no motion was found.
