@@ -107,13 +107,43 @@ std::uint32_t rigid_root(const Robot& robot, std::uint32_t link) {
   return link;
 }
 
-bool are_neighbours(const Robot& robot, std::uint32_t a, std::uint32_t b) {
-  a = rigid_root(robot, a);
-  b = rigid_root(robot, b);
-  const auto is_above = [&](std::uint32_t above, std::uint32_t below) {
-    return below != 0 && rigid_root(robot, robot.links[below].parent) == above;
-  };
-  return a == b || is_above(a, b) || is_above(b, a);
+/// Half of the least width of a shape.
+double thickness_of(const Collider& collider) {
+  Core core;
+  if (core_of(collider, core)) return core.radius;
+  if (const auto* const box = std::get_if<Collider::Box>(&collider.shape))
+    return box->half_size.minCoeff();
+  return 0;
+}
+
+/// The joint between a link and its parent, and the one above it, are one joint of several axes if
+/// their places are nearer to one another than `near`.
+bool is_one_joint(const Robot& robot, std::uint32_t link, double near) {
+  const std::uint32_t above = rigid_root(robot, robot.links[link].parent);
+  Affine3d from_above = robot.joints[link - 1].parent_from_joint;
+  for (std::uint32_t of = robot.links[link].parent; of != above; of = robot.links[of].parent)
+    from_above = robot.joints[of - 1].parent_from_joint * from_above;
+  return from_above.translation().norm() < near;
+}
+
+/// Whether one joint joins two links, which may have several axes.
+/// @param near  what counts as one place, metres.
+bool is_joined_below(const Robot& robot, std::uint32_t above, std::uint32_t below, double near) {
+  above = rigid_root(robot, above);
+  below = rigid_root(robot, below);
+  while (below != above && below != 0) {
+    const std::uint32_t next = rigid_root(robot, robot.links[below].parent);
+    if (next == above) return true;
+    if (next == 0 || !is_one_joint(robot, below, near)) return false;
+    below = next;
+  }
+  return below == above;
+}
+
+bool are_neighbours(const Robot& robot, const BoneCollider& a, const BoneCollider& b) {
+  const double near = std::min(thickness_of(a.collider), thickness_of(b.collider));
+  return is_joined_below(robot, a.bone, b.bone, near) ||
+         is_joined_below(robot, b.bone, a.bone, near);
 }
 
 }  // namespace
@@ -143,8 +173,7 @@ LinkPairs::LinkPairs(const PlanTool& tool) : tool_(&tool) {
   for (const BoneCollider& shape : tool.shapes) radii_.push_back(radius_of(shape.collider));
   for (std::size_t a = 0; a < tool.shapes.size(); ++a)
     for (std::size_t b = a + 1; b < tool.shapes.size(); ++b)
-      if (!are_neighbours(tool.robot, tool.shapes[a].bone, tool.shapes[b].bone))
-        pairs_.push_back({a, b, 0});
+      if (!are_neighbours(tool.robot, tool.shapes[a], tool.shapes[b])) pairs_.push_back({a, b, 0});
   leave_out_coarse_ones();
 }
 

@@ -132,7 +132,7 @@ std::string plan_summary(const PlanReport& report) {
   if (std::isfinite(report.least_clearance))
     text += printed("links       at least %.3g m from the model\n", report.least_clearance);
   if (std::isfinite(report.least_self_clearance))
-    text += printed("            at least %.3g m from one another\n", report.least_self_clearance);
+    text += printed("links       at least %.3g m from one another\n", report.least_self_clearance);
   for (const ValueMargin& margin : report.values) {
     text += printed("%-11s %.4g to %.4g", margin.name.c_str(), margin.least, margin.greatest);
     if (std::isfinite(margin.to_limits)) text += printed(", %.3g to its limits", margin.to_limits);
