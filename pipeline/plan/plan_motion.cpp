@@ -19,6 +19,7 @@
 #include "pipeline/plan/measure_wound.h"
 #include "pipeline/plan/motion_measures.h"
 #include "pipeline/plan/plan_setup.h"
+#include "pipeline/plan/settle_gape.h"
 #include "pipeline/plan/target_path.h"
 #include "pipeline/plan/timeline.h"
 
@@ -59,6 +60,7 @@ class Planner {
     scales_ = setup->scales;
     limits_ = setup->limits;
     longest_ = kLongest * timing_.cut;
+    gape_ = target.gape;
     planned_.report.curve_length = setup->path.length();
     planned_.report.tolerance = setup->tolerance;
     for (int i = 0;; ++i) {
@@ -404,6 +406,20 @@ class Planner {
     report.hausdorff_in_clips = measured->hausdorff_in_clips;
     report.torn = measured->torn;
     wound_share_ = measured->farthest_share;
+    if (gape_ > 0 && report.hausdorff <= report.tolerance) return settle(path.length());
+    return {};
+  }
+
+  /// Lets the wound gape.
+  Status settle(double length) {
+    const Result<SoftMaterial> skin = find_material("skin");
+    const Result<ModelPose> pose = pose_at(*character_, timing_, planned_.report.cut_ends);
+    if (!skin) return skin.error();
+    if (!pose) return pose.error();
+    const Result<PlannedGape> gape = settle_gape(character_, planned_.tear, *pose, length, gape_,
+                                                 options_.material.value_or(*skin));
+    if (!gape) return gape.error();
+    planned_.report.gape = *gape;
     return {};
   }
 
@@ -420,6 +436,7 @@ class Planner {
   std::vector<TargetSample> samples_;
   std::optional<Clearance> clearance_;
   double longest_ = 0, slowdown_ = 1;
+  double gape_ = 0;         ///< WoundTarget::gape.
   double wound_share_ = 0;  ///< Of the place of the curve that the lips are farthest from.
   PlannedMotion planned_;
 };

@@ -18,22 +18,6 @@ constexpr double kLeastTolerance = 0.0005;  ///< Of the diagonal of the posed ch
 /// Errors that count as one, as shares of the tolerance and the depth.
 constexpr double kPlaceScale = 0.02, kDepthScale = 0.05;
 
-/// Diagonal of the box around all vertices in a pose.
-double diagonal_of(const Character& character, const ModelPose& pose) {
-  std::vector<SurfaceAnchor> places;
-  for (std::uint32_t mesh = 0; mesh < character.meshes.size(); ++mesh)
-    for (std::uint32_t i = 0; i < character.meshes[mesh].triangle_count(); ++i)
-      places.push_back({mesh, {i, {1, 0, 0}}});
-  std::vector<Vec3d> posed(places.size());
-  if (places.empty() || !PosedPlaces(character, places).pose(pose, posed, {})) return 0;
-  Vec3d low = posed[0], high = posed[0];
-  for (const Vec3d& place : posed) {
-    low = low.cwiseMin(place);
-    high = high.cwiseMax(place);
-  }
-  return (high - low).norm();
-}
-
 SplineLimits spline_limits(const BladeChain& chain, const PlanOptions& options) {
   SplineLimits limits;
   limits.values = limits_of(chain);
@@ -48,6 +32,21 @@ SplineLimits spline_limits(const BladeChain& chain, const PlanOptions& options) 
 }
 
 }  // namespace
+
+double diagonal_of(const Character& character, const ModelPose& pose) {
+  std::vector<SurfaceAnchor> places;
+  for (std::uint32_t mesh = 0; mesh < character.meshes.size(); ++mesh)
+    for (std::uint32_t i = 0; i < character.meshes[mesh].triangle_count(); ++i)
+      places.push_back({mesh, {i, {1, 0, 0}}});
+  std::vector<Vec3d> posed(places.size());
+  if (places.empty() || !PosedPlaces(character, places).pose(pose, posed, {})) return 0;
+  Vec3d low = posed[0], high = posed[0];
+  for (const Vec3d& place : posed) {
+    low = low.cwiseMin(place);
+    high = high.cwiseMax(place);
+  }
+  return (high - low).norm();
+}
 
 double usual_tolerance(const Character& character, const TargetPath& path, const ModelPose& pose) {
   return std::max(kTolerance * path.length(), kLeastTolerance * diagonal_of(character, pose));

@@ -52,6 +52,13 @@ Status check_target(const Character& character, const WoundTarget& target) {
             check_place(character, target.places[i], static_cast<std::uint32_t>(i));
         !status)
       return status;
+  if (!(target.gape >= 0) || !std::isfinite(target.gape))
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "the gape is %g; it must be at least 0", target.gape);
+  if (target.gape > 0 && target.is_closed)
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "the gape is %g, but a closed curve has none: its piece comes off",
+                           target.gape);
   if (const Status status = check_profile(target.depth, target.places.size(), "depth", 1e6);
       !status)
     return status;

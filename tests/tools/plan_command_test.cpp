@@ -100,6 +100,19 @@ TEST_F(PlanCommand, what_cannot_be_made_is_a_finding_and_writes_only_the_report)
   EXPECT_EQ(plan_with_arm(near).exit_code, 0);
 }
 
+TEST_F(PlanCommand, a_gape_has_a_tension) {
+  (void)curve(R"({"sunder_curve": 1, "depth": 0.02, "gape": 0.012,
+    "places": [{"point": [-0.08, 1.5, 0.3]}, {"point": [-0.06, 1.2, 0.3]}]})");
+  const CommandResult planned = plan({"--hand", path("hand.urdf"), "--report", path("plan.json")});
+  ASSERT_EQ(planned.exit_code, 0) << planned.err;
+  EXPECT_THAT(planned.out, HasSubstr("gape "));
+  const json gape = read_json("plan.json")["gape"];
+  EXPECT_NEAR(gape["widest"].get<double>(), 0.012, 0.15 * 0.012);
+  EXPECT_GT(gape["tension"].get<double>(), 0);
+  (void)curve(R"({"sunder_curve": 1, "gape": "wide", "places": []})");
+  expect_usage_error(plan({"--hand", path("hand.urdf")}), "'/gape'");
+}
+
 TEST_F(PlanCommand, a_motion_that_was_performed_is_marked) {
   (void)curve();
   ASSERT_EQ(plan_with_arm("0.25,0.85,0.85").exit_code, 0);

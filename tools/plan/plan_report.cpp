@@ -106,6 +106,8 @@ Json plan_json(const PlanRequest& request, const PlanReport& report,
   json["lips"] = {{"hausdorff", number(report.hausdorff)},
                   {"mean_distance", number(report.mean_distance)},
                   {"hausdorff_in_clips", number(report.hausdorff_in_clips)}};
+  if (report.gape)
+    json["gape"] = {{"tension", report.gape->tension}, {"widest", report.gape->widest}};
   Json& values = json["values"] = Json::array();
   for (const ValueMargin& margin : report.values) values.push_back(value_json(margin));
   return json;
@@ -129,6 +131,9 @@ std::string plan_summary(const PlanReport& report) {
                   report.mean_depth_error);
   text += printed("angle       off by %.3g degrees at most, %.3g on average\n",
                   degrees(report.most_angle_error), degrees(report.mean_angle_error));
+  if (report.gape)
+    text += printed("gape        %.3g m under a tension of %.4g N/m\n", report.gape->widest,
+                    report.gape->tension);
   if (std::isfinite(report.least_clearance))
     text += printed("links       at least %.3g m from the model\n", report.least_clearance);
   if (std::isfinite(report.least_self_clearance))

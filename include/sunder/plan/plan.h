@@ -2,6 +2,7 @@
 
 #include <sunder/operation/operation.h>
 #include <sunder/particles/fitted_colliders.h>
+#include <sunder/particles/material.h>
 #include <sunder/robot/robot.h>
 #include <sunder/robot/trajectory.h>
 #include <sunder/tear/contact.h>
@@ -34,6 +35,9 @@ struct WoundTarget {
   /// Between the blade and the surface along the curve, radians, in (0, pi): one for the curve, or
   /// one per place. Below a right angle the blade's base leans in the direction of travel.
   std::vector<double> angle = {std::numbers::pi / 2};
+  /// How wide the wound shall gape in soft tissue where it is widest, metres; 0: not asked for. A
+  /// closed curve has none.
+  double gape = 0;
 };
 
 /// When the character is in which pose, and how long the motion takes.
@@ -70,6 +74,8 @@ struct PlanOptions {
   double clearance = 0.005;           ///< Wanted between links and character, metres; > 0.
   std::uint32_t seeds = 24;           ///< Random starts of the inverse kinematics.
   TearOptions tear;                   ///< Of the tear that is made.
+  /// Of the tissue, for WoundTarget::gape; empty: the preset "skin".
+  std::optional<SoftMaterial> material;
 };
 
 /// How much room a value of the robot keeps during a planned motion. Units of the value.
@@ -101,6 +107,16 @@ struct PlanObstacle {
   std::string other = {};  ///< Name of the second link of a `self_collision`.
 };
 
+/// How the lips of the torn copy gape as soft tissue.
+struct PlannedGape {
+  /// Tension::newtons_per_metre. The first guess is that of tension_for_gap(), which is for a flat
+  /// surface; it is corrected by what the copy does.
+  double tension = 0;
+  /// The greatest distance of two points of the lips that were one, metres, when the tissue has
+  /// come to rest under that tension in the pose in which the cut ends.
+  double widest = 0;
+};
+
 struct PlanReport {
   double curve_length = 0;  ///< Metres, in the pose in which the motion begins.
   double tolerance = 0;     ///< Metres.
@@ -130,7 +146,8 @@ struct PlanReport {
   /// metres, in the pose in which the cut begins, and the largest one in all sampled poses of
   /// all clips. Infinity if it tears nothing; 0 if no motion was found.
   double hausdorff = 0, mean_distance = 0, hausdorff_in_clips = 0;
-  TearReport torn;  ///< Of that copy, which is torn without width and walls.
+  TearReport torn;                  ///< Of that copy, which is torn without width and walls.
+  std::optional<PlannedGape> gape;  ///< If one is wanted, of a curve that is reached.
 };
 
 struct PlannedMotion {
