@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kHalvings = 48;     ///< Of a segment, by the golden ratio.
 constexpr int kRandomPoses = 64;  ///< In which shapes are looked at that overlap always.
-constexpr double kNearlyAll = 0.9;
+constexpr double kOften = 0.35;
 constexpr std::uint64_t kPairSeed = 0x51e5;
 
 /// The core of a ball or a capsule: a segment of this half length along the frame's y axis.
@@ -197,7 +197,7 @@ void LinkPairs::leave_out_coarse_ones() {
   }
   std::size_t kept = 0;
   for (std::size_t i = 0; i < pairs_.size(); ++i)
-    if (overlapping[i] < kNearlyAll * kRandomPoses) pairs_[kept++] = pairs_[i];
+    if (overlapping[i] < kOften * kRandomPoses) pairs_[kept++] = pairs_[i];
   pairs_.resize(kept);
 }
 

@@ -16,7 +16,7 @@ namespace sunder::plan {
 [[nodiscard]] double distance_between(const Collider& a, const Collider& b);
 
 /// Shapes of links that could meet: those of links that are no neighbours in the robot. Left out
-/// are pairs that overlap at rest or in nearly all random values, whose shapes are coarser than the
+/// are pairs that overlap at rest or in 0.35 of random values, whose shapes are coarser than the
 /// links.
 class LinkPairs {
  public:
