@@ -127,7 +127,8 @@ bool gets_farther(const PlanCase& of, const PlanOptions& options, const PlanRepo
   using Kind = PlanObstacle::Kind;
   PlanTool freed = of.tool;
   std::erase_if(freed.shapes, [&](const BoneCollider& shape) {
-    return is_named(report, Kind::collision, freed.robot.links[shape.bone].name);
+    const std::string& link = freed.robot.links[shape.bone].name;
+    return is_named(report, Kind::collision, link) || is_named(report, Kind::self_collision, link);
   });
   for (const RobotValue& value : freed.robot.values)
     if (is_named(report, Kind::joint_speed, value.name))

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <utility>
-#include <variant>
 
 #include "pipeline/plan/posed_places.h"
 
@@ -112,16 +111,6 @@ Result<std::vector<SurfaceAnchor>> sorted_places(const Character& character,
   return sorted;
 }
 
-/// Radius of a ball around the origin of a collider's frame that holds it.
-double radius_of(const Collider& collider) {
-  if (const auto* const ball = std::get_if<Collider::Sphere>(&collider.shape)) return ball->radius;
-  if (const auto* const capsule = std::get_if<Collider::Capsule>(&collider.shape))
-    return capsule->radius + capsule->half_length;
-  if (const auto* const box = std::get_if<Collider::Box>(&collider.shape))
-    return box->half_size.norm();
-  return std::numeric_limits<double>::infinity();
-}
-
 }  // namespace
 
 Result<Clearance> Clearance::create(const Character& character, const PlanTool& tool,
@@ -137,6 +126,7 @@ Result<Clearance> Clearance::create(const Character& character, const PlanTool& 
     clearance.instants_.push_back(std::move(instant));
   }
   if (!clearance.is_needed()) return clearance;
+  clearance.pairs_ = LinkPairs(tool);
   Result<ModelPose> pose = pose_at(character, timing, 0);
   if (!pose) return pose.error();
   Result<std::vector<SurfaceAnchor>> anchors = spread_places(character, *pose);
@@ -238,6 +228,7 @@ double Clearance::least_distance(BladeChain& chain, std::size_t instant, const V
   double least = most;
   BladePlace blade;
   chain.place({values.data(), chain.size()}, blade, false);
+  least = pairs_.nearest(chain.frames(), least).distance;
   for (const std::size_t shape : shapes_) {
     const BoneCollider& of_link = tool_->shapes[shape];
     const Collider posed = posed_collider(of_link, chain.frames()[of_link.bone]);

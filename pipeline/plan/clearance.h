@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "pipeline/plan/blade_chain.h"
+#include "pipeline/plan/link_pairs.h"
 #include "pipeline/plan/target_path.h"
 
 namespace sunder::plan {
@@ -24,7 +25,7 @@ struct NearPlace {
   Vec3d normal = Vec3d::Zero();
 };
 
-/// The distance of a robot's links from a character that moves.
+/// The distance of a robot's links from a character that moves, and from one another.
 class Clearance {
  public:
   /// @param character, tool  kept by reference.
@@ -38,7 +39,11 @@ class Clearance {
     return instants_[instant].sample;
   }
 
-  /// The least distance of a link at an instant, at most `most`; below 0 inside.
+  /// Links that could meet.
+  [[nodiscard]] const LinkPairs& pairs() const { return pairs_; }
+
+  /// The least distance of a link from the character at an instant, or from another link, at most
+  /// `most`; below 0 inside.
   [[nodiscard]] double least_distance(BladeChain& chain, std::size_t instant, const Values& values,
                                       double most) const;
 
@@ -75,6 +80,7 @@ class Clearance {
 
   const PlanTool* tool_;
   std::vector<std::size_t> shapes_;  ///< Those that count.
+  LinkPairs pairs_;
   std::vector<Instant> instants_;
 };
 

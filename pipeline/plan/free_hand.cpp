@@ -44,8 +44,10 @@ Result<Affine3d> hand_place(const std::shared_ptr<const Character>& character,
   plan::TargetSample middle, later;
   middle.share = 0.5;
   later.share = 0.51;
-  if (const Status status = path->sample(*pose, 0, middle); !status) return status;
-  if (const Status status = path->sample(*pose, 0, later); !status) return status;
+  plan::PosedPath posed;
+  if (const Status status = path->pose(*pose, posed); !status) return status;
+  path->sample(posed, 0, middle);
+  path->sample(posed, 0, later);
   const Vec3d z = middle.normal;
   Vec3d x = Vec3d(later.place - middle.place).cross(z);
   x = x.norm() > 0 ? Vec3d(x.normalized()) : Vec3d(z.unitOrthogonal());

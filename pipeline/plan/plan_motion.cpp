@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -18,6 +19,7 @@
 #include "pipeline/plan/measure_wound.h"
 #include "pipeline/plan/motion_measures.h"
 #include "pipeline/plan/plan_setup.h"
+#include "pipeline/plan/settle_gape.h"
 #include "pipeline/plan/target_path.h"
 #include "pipeline/plan/timeline.h"
 
@@ -29,6 +31,8 @@ constexpr std::size_t kSamplesPerInterval = 3;
 constexpr double kFrame = 1.0 / 60;  ///< A blade at least so often while a clip runs, seconds.
 constexpr int kMostRounds = 4;       ///< Of fits that add places to keep away from.
 constexpr double kOverLimit = 1e-9;
+constexpr std::size_t kTimesOfPairs = 257;  ///< At which links are looked at.
+constexpr double kMeasuredClearance = 10;   ///< Times the wanted clearance.
 constexpr int kMostDurations = 8;
 constexpr double kLongest = 16;  ///< Times the cut's duration that it may grow to.
 
@@ -56,6 +60,7 @@ class Planner {
     scales_ = setup->scales;
     limits_ = setup->limits;
     longest_ = kLongest * timing_.cut;
+    gape_ = target.gape;
     planned_.report.curve_length = setup->path.length();
     planned_.report.tolerance = setup->tolerance;
     for (int i = 0;; ++i) {
@@ -131,6 +136,7 @@ class Planner {
            std::all_of(planned.report.obstacles.begin(), planned.report.obstacles.end(),
                        [](const PlanObstacle& obstacle) {
                          return obstacle.kind != PlanObstacle::Kind::collision &&
+                                obstacle.kind != PlanObstacle::Kind::self_collision &&
                                 obstacle.kind != PlanObstacle::Kind::reach;
                        });
   }
@@ -181,7 +187,7 @@ class Planner {
     }
   }
 
-  /// Names the links that are inside of the character on a track.
+  /// Names the links that are inside of the character or of one another on a track.
   void name_links(BladeChain& chain, const Track& track) {
     PlanReport& report = planned_.report;
     report.is_reachable = false;
@@ -201,6 +207,50 @@ class Planner {
         report.obstacles.push_back(
             {PlanObstacle::Kind::collision, name, Timeline(timing_).share_at(near.time)});
     }
+    name_pairs(chain, values_at, clearance_->instants());
+  }
+
+  /// Names the pairs of links that are inside of one another at even times.
+  void name_pairs(BladeChain& chain, const std::function<Values(double)>& values_at,
+                  std::size_t times) {
+    std::vector<PlanObstacle>& obstacles = planned_.report.obstacles;
+    const auto name_of = [&](std::size_t shape) {
+      return tool_.robot.links[tool_.shapes[shape].bone].name;
+    };
+    BladePlace blade;
+    for (std::size_t i = 0; i < times; ++i) {
+      const double time =
+          samples_.back().time * static_cast<double>(i) / static_cast<double>(times - 1);
+      const Values values = values_at(time);
+      chain.place({values.data(), chain.size()}, blade, false);
+      for (const LinkPairs::Near& pair : clearance_->pairs().overlaps(chain.frames())) {
+        const bool is_known =
+            std::any_of(obstacles.begin(), obstacles.end(), [&](const PlanObstacle& known) {
+              return known.value == name_of(pair.a) && known.other == name_of(pair.b);
+            });
+        if (!is_known)
+          obstacles.push_back({PlanObstacle::Kind::self_collision, name_of(pair.a),
+                               Timeline(timing_).share_at(time), name_of(pair.b)});
+      }
+    }
+  }
+
+  /// Measures the distance of links from one another, and names those that overlap.
+  void check_pairs(const JointSpline& spline, BladeChain& chain) {
+    const double most = kMeasuredClearance * options_.clearance;
+    double& least = planned_.report.least_self_clearance;
+    least = clearance_->pairs().is_empty() ? std::numeric_limits<double>::infinity() : most;
+    if (clearance_->pairs().is_empty()) return;
+    BladePlace blade;
+    for (std::size_t i = 0; i < kTimesOfPairs; ++i) {
+      const Values values = spline.at(samples_.back().time * static_cast<double>(i) /
+                                      static_cast<double>(kTimesOfPairs - 1));
+      chain.place({values.data(), chain.size()}, blade, false);
+      least = clearance_->pairs().nearest(chain.frames(), least).distance;
+    }
+    if (least < 0)
+      name_pairs(
+          chain, [&](double time) { return spline.at(time); }, kTimesOfPairs);
   }
 
   /// Fits a spline to a track, and tears. The report says whether the curve is made.
@@ -213,6 +263,7 @@ class Planner {
     if (!spline) return spline.error();
     planned_.trajectory = trajectory_of(*spline, chain, Timeline(timing_), limits_.values);
     check_rates(chain);
+    check_pairs(*spline, chain);
     measure_errors(*spline, samples_, chain, report);
     report.is_reachable = report.obstacles.empty() && check_fit(*spline, chain);
     if (!report.is_reachable) return {};
@@ -355,6 +406,20 @@ class Planner {
     report.hausdorff_in_clips = measured->hausdorff_in_clips;
     report.torn = measured->torn;
     wound_share_ = measured->farthest_share;
+    if (gape_ > 0 && report.hausdorff <= report.tolerance) return settle(path.length());
+    return {};
+  }
+
+  /// Lets the wound gape.
+  Status settle(double length) {
+    const Result<SoftMaterial> skin = find_material("skin");
+    const Result<ModelPose> pose = pose_at(*character_, timing_, planned_.report.cut_ends);
+    if (!skin) return skin.error();
+    if (!pose) return pose.error();
+    const Result<PlannedGape> gape = settle_gape(character_, planned_.tear, *pose, length, gape_,
+                                                 options_.material.value_or(*skin));
+    if (!gape) return gape.error();
+    planned_.report.gape = *gape;
     return {};
   }
 
@@ -371,6 +436,7 @@ class Planner {
   std::vector<TargetSample> samples_;
   std::optional<Clearance> clearance_;
   double longest_ = 0, slowdown_ = 1;
+  double gape_ = 0;         ///< WoundTarget::gape.
   double wound_share_ = 0;  ///< Of the place of the curve that the lips are farthest from.
   PlannedMotion planned_;
 };

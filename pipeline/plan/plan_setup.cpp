@@ -18,22 +18,6 @@ constexpr double kLeastTolerance = 0.0005;  ///< Of the diagonal of the posed ch
 /// Errors that count as one, as shares of the tolerance and the depth.
 constexpr double kPlaceScale = 0.02, kDepthScale = 0.05;
 
-/// Diagonal of the box around all vertices in a pose.
-double diagonal_of(const Character& character, const ModelPose& pose) {
-  std::vector<SurfaceAnchor> places;
-  for (std::uint32_t mesh = 0; mesh < character.meshes.size(); ++mesh)
-    for (std::uint32_t i = 0; i < character.meshes[mesh].triangle_count(); ++i)
-      places.push_back({mesh, {i, {1, 0, 0}}});
-  std::vector<Vec3d> posed(places.size());
-  if (places.empty() || !PosedPlaces(character, places).pose(pose, posed, {})) return 0;
-  Vec3d low = posed[0], high = posed[0];
-  for (const Vec3d& place : posed) {
-    low = low.cwiseMin(place);
-    high = high.cwiseMax(place);
-  }
-  return (high - low).norm();
-}
-
 SplineLimits spline_limits(const BladeChain& chain, const PlanOptions& options) {
   SplineLimits limits;
   limits.values = limits_of(chain);
@@ -49,6 +33,25 @@ SplineLimits spline_limits(const BladeChain& chain, const PlanOptions& options) 
 
 }  // namespace
 
+double diagonal_of(const Character& character, const ModelPose& pose) {
+  std::vector<SurfaceAnchor> places;
+  for (std::uint32_t mesh = 0; mesh < character.meshes.size(); ++mesh)
+    for (std::uint32_t i = 0; i < character.meshes[mesh].triangle_count(); ++i)
+      places.push_back({mesh, {i, {1, 0, 0}}});
+  std::vector<Vec3d> posed(places.size());
+  if (places.empty() || !PosedPlaces(character, places).pose(pose, posed, {})) return 0;
+  Vec3d low = posed[0], high = posed[0];
+  for (const Vec3d& place : posed) {
+    low = low.cwiseMin(place);
+    high = high.cwiseMax(place);
+  }
+  return (high - low).norm();
+}
+
+double usual_tolerance(const Character& character, const TargetPath& path, const ModelPose& pose) {
+  return std::max(kTolerance * path.length(), kLeastTolerance * diagonal_of(character, pose));
+}
+
 Result<PlanSetup> PlanSetup::create(const std::shared_ptr<const Character>& character,
                                     const WoundTarget& target, const PlanTiming& timing,
                                     const PlanTool& tool, const PlanOptions& options) {
@@ -62,9 +65,7 @@ Result<PlanSetup> PlanSetup::create(const std::shared_ptr<const Character>& char
   if (const Status status = check_shapes(tool); !status) return status;
   SplineLimits limits = spline_limits(*chain, options);
   PlanSetup setup{std::move(*chain), std::move(*path), options.tolerance, {}, std::move(limits)};
-  if (setup.tolerance == 0)
-    setup.tolerance = std::max(kTolerance * setup.path.length(),
-                               kLeastTolerance * diagonal_of(*character, *pose));
+  if (setup.tolerance == 0) setup.tolerance = usual_tolerance(*character, setup.path, *pose);
   setup.scales.place = kPlaceScale * setup.tolerance;
   setup.scales.depth = kDepthScale * *std::min_element(target.depth.begin(), target.depth.end());
   return setup;

@@ -11,6 +11,13 @@
 
 namespace sunder::plan {
 
+/// Diagonal of the box around all vertices in a pose, metres.
+[[nodiscard]] double diagonal_of(const Character& character, const ModelPose& pose);
+
+/// What PlanOptions::tolerance of 0 stands for, metres.
+[[nodiscard]] double usual_tolerance(const Character& character, const TargetPath& path,
+                                     const ModelPose& pose);
+
 /// The parts that every search for a motion uses, made from its inputs.
 struct PlanSetup {
   BladeChain chain;

@@ -52,6 +52,13 @@ Status check_target(const Character& character, const WoundTarget& target) {
             check_place(character, target.places[i], static_cast<std::uint32_t>(i));
         !status)
       return status;
+  if (!(target.gape >= 0) || !std::isfinite(target.gape))
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "the gape is %g; it must be at least 0", target.gape);
+  if (target.gape > 0 && target.is_closed)
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "the gape is %g, but a closed curve has none: its piece comes off",
+                           target.gape);
   if (const Status status = check_profile(target.depth, target.places.size(), "depth", 1e6);
       !status)
     return status;
@@ -180,9 +187,14 @@ Result<TargetPath> TargetPath::create(const std::shared_ptr<const Character>& ch
   return path;
 }
 
-Status TargetPath::sample(const ModelPose& pose, double standoff, TargetSample& sample) const {
-  std::vector<Vec3d> places(anchors_.size()), normals(anchors_.size());
-  if (const Status status = places_->pose(pose, places, normals); !status) return status;
+Status TargetPath::pose(const ModelPose& pose, PosedPath& posed) const {
+  posed.places.resize(anchors_.size());
+  posed.normals.resize(anchors_.size());
+  return places_->pose(pose, posed.places, posed.normals);
+}
+
+void TargetPath::sample(const PosedPath& posed, double standoff, TargetSample& sample) const {
+  const std::vector<Vec3d>&places = posed.places, &normals = posed.normals;
   const double wanted = sample.share * length();
   const auto above = std::upper_bound(along_.begin(), along_.end() - 1, wanted) - along_.begin();
   const auto next = static_cast<std::size_t>(std::max<std::ptrdiff_t>(above, 1));
@@ -220,7 +232,6 @@ Status TargetPath::sample(const ModelPose& pose, double standoff, TargetSample& 
   const double depth = sample.full_depth * (1 - (1 + kAbove) * up * up);
   sample.depth = (1 - sample.lift) * depth - sample.lift * standoff;
   sample.is_full = sample.lift == 0 && up == 0;
-  return {};
 }
 
 Result<ModelPose> pose_at(const Character& character, const PlanTiming& timing, double time) {
@@ -236,16 +247,18 @@ Result<std::vector<TargetSample>> sample_target(const Character& character, cons
                                                 std::span<const double> times) {
   const Timeline timeline(timing);
   std::vector<TargetSample> samples(times.size());
-  Result<ModelPose> pose = pose_at(character, timing, 0);
-  if (!pose) return pose.error();
+  PosedPath posed;
   for (std::size_t i = 0; i < times.size(); ++i) {
     TargetSample& sample = samples[i];
     sample.time = times[i];
     sample.share = timeline.share_at(sample.time);
     sample.lift = timeline.lift_at(sample.time);
-    if (timing.clip_speed > 0) pose = pose_at(character, timing, sample.time);
-    if (!pose) return pose.error();
-    if (const Status status = path.sample(*pose, timing.standoff, sample); !status) return status;
+    if (i == 0 || timing.clip_speed > 0) {
+      const Result<ModelPose> pose = pose_at(character, timing, sample.time);
+      if (!pose) return pose.error();
+      if (const Status status = path.pose(*pose, posed); !status) return status;
+    }
+    path.sample(posed, timing.standoff, sample);
   }
   return samples;
 }

@@ -27,6 +27,11 @@ struct TargetSample {
   bool is_full = false;   ///< Whether `depth` is that.
 };
 
+/// A TargetPath in a pose.
+struct PosedPath {
+  std::vector<Vec3d> places, normals;  ///< Of its anchors.
+};
+
 /// A WoundTarget as a dense run of places in triangles.
 class TargetPath {
  public:
@@ -38,8 +43,12 @@ class TargetPath {
   [[nodiscard]] double length() const { return along_.back(); }
   [[nodiscard]] const std::vector<SurfaceAnchor>& anchors() const { return anchors_; }
 
-  /// @param pose  of the character at that time.
-  Status sample(const ModelPose& pose, double standoff, TargetSample& sample) const;
+  [[nodiscard]] bool is_closed() const { return is_closed_; }
+
+  /// @param posed  written.
+  Status pose(const ModelPose& pose, PosedPath& posed) const;
+  /// Where the blade shall be at `sample.share` and `sample.lift`; its time stays as it is.
+  void sample(const PosedPath& posed, double standoff, TargetSample& sample) const;
 
  private:
   TargetPath() = default;

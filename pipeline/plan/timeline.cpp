@@ -57,6 +57,8 @@ double Timeline::share_at(double time) const {
   return speed * (u - kSpeedRamp / 2);
 }
 
+double Timeline::even_speed() const { return 1 / ((1 - kSpeedRamp) * timing_.cut); }
+
 double Timeline::lift_at(double time) const {
   if (time < cut_begins()) return 1 - eased(time / timing_.approach);
   if (time > cut_ends()) return eased((time - cut_ends()) / timing_.retreat);

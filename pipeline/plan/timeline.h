@@ -18,6 +18,8 @@ class Timeline {
 
   /// Share of the curve's length. Starts and stops with a continuous acceleration.
   [[nodiscard]] double share_at(double time) const;
+  /// Shares of the curve per second between the begin and the end of the cut, where it is even.
+  [[nodiscard]] double even_speed() const;
   /// 0 during the cut, 1 at begin and end of the motion.
   [[nodiscard]] double lift_at(double time) const;
 

@@ -100,6 +100,65 @@ TEST_F(PlanCommand, what_cannot_be_made_is_a_finding_and_writes_only_the_report)
   EXPECT_EQ(plan_with_arm(near).exit_code, 0);
 }
 
+TEST_F(PlanCommand, a_gape_has_a_tension) {
+  (void)curve(R"({"sunder_curve": 1, "depth": 0.02, "gape": 0.012,
+    "places": [{"point": [-0.08, 1.5, 0.3]}, {"point": [-0.06, 1.2, 0.3]}]})");
+  const CommandResult planned = plan({"--hand", path("hand.urdf"), "--report", path("plan.json")});
+  ASSERT_EQ(planned.exit_code, 0) << planned.err;
+  EXPECT_THAT(planned.out, HasSubstr("gape "));
+  const json gape = read_json("plan.json")["gape"];
+  EXPECT_NEAR(gape["widest"].get<double>(), 0.012, 0.15 * 0.012);
+  EXPECT_GT(gape["tension"].get<double>(), 0);
+  (void)curve(R"({"sunder_curve": 1, "gape": "wide", "places": []})");
+  expect_usage_error(plan({"--hand", path("hand.urdf")}), "'/gape'");
+}
+
+TEST_F(PlanCommand, a_motion_that_was_performed_is_marked) {
+  (void)curve();
+  ASSERT_EQ(plan_with_arm("0.25,0.85,0.85").exit_code, 0);
+  const auto score = [](const std::string& performed, std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"plan",    model(),   "--curve",  path("curve.json"),
+                                          "--score", performed, "--report", path("score.json")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_sunder(arguments);
+  };
+  const std::vector<std::string> robot = {"--robot",       arm(),
+                                          "--blade",       "tool",
+                                          "--edge",        "0,0,0.14,0,0,0.24",
+                                          "--robot-place", "0.25,0.85,0.85",
+                                          "--pose",        "Sway@0.4",
+                                          "--clip-speed",  "1"};
+  const CommandResult good = score(path("plan.csv"), robot);
+  ASSERT_EQ(good.exit_code, 0) << good.err;
+  EXPECT_THAT(good.out, HasSubstr("mark "));
+  const json report = read_json("score.json");
+  EXPECT_EQ(report["sunder_score"], 1);
+  EXPECT_GT(report["marks"]["whole"].get<double>(), 93);
+  EXPECT_EQ(report["units"]["length"], "m");
+  EXPECT_LE(report["place_error"]["most"].get<double>(), report["tolerance"].get<double>());
+  EXPECT_GT(report["pace"]["speed"].get<double>(), 0);
+
+  // A log: four blades beside the curve, at ten a second.
+  (void)write("log.json", R"({"sunder_operations": 1, "operations": [{"op": "tear", "stroke": [
+    {"base": [-0.07, 1.5, 0.4], "tip": [-0.07, 1.5, 0.1]},
+    {"base": [-0.04, 1.4, 0.4], "tip": [-0.04, 1.4, 0.1]},
+    {"base": [-0.04, 1.3, 0.4], "tip": [-0.04, 1.3, 0.1]},
+    {"base": [-0.06, 1.2, 0.4], "tip": [-0.06, 1.2, 0.1]}]}]})");
+  const CommandResult logged = score(path("log.json"), {});
+  ASSERT_EQ(logged.exit_code, 0) << logged.err;
+  EXPECT_TRUE(read_json("score.json")["marks"]["speed"].is_null());
+  EXPECT_LT(read_json("score.json")["marks"]["whole"].get<double>(), 90);
+  ASSERT_EQ(score(path("log.json"), {"--score-rate", "10"}).exit_code, 0);
+  EXPECT_NEAR(read_json("score.json")["pace"]["seconds"].get<double>(), 0.3, 1e-9);
+  expect_usage_error(score(path("plan.csv"), {}), "needs --robot");
+  (void)write("log.json", R"({"sunder_operations": 1, "operations": []})");
+  expect_usage_error(score(path("log.json"), {}), "the log has 0 tears");
+  expect_usage_error(score(path("log.json"), {"-o", path("x.csv")}), "--output excludes --score");
+  expect_usage_error(
+      run_sunder({"plan", model(), "--curve", path("curve.json"), "--hand", path("hand.urdf")}),
+      "--output is required");
+}
+
 TEST_F(PlanCommand, faults_name_what_is_wrong) {
   const std::string hand = path("refused.urdf");
   (void)curve("{\"sunder_curve\": 2}");

@@ -11,6 +11,7 @@ constexpr NumberRange kPartSeconds = {
     .field = "the value", .least = 1e-3, .most = 3600, .unit = " s"};
 constexpr NumberRange kLength = {.field = "the value", .least = 1e-6, .most = 1e6, .unit = " m"};
 constexpr NumberRange kHeight = {.field = "the value", .least = 0, .most = 1e6, .unit = " m"};
+constexpr NumberRange kRate = {.field = "the value", .least = 1, .most = 1e5, .unit = " per s"};
 constexpr NumberRange kAcceleration = {.field = "the value", .least = 1e-6, .most = 1e9};
 
 void add_timing(CLI::App& verb, PlanRequest& request) {
@@ -39,14 +40,39 @@ void add_timing(CLI::App& verb, PlanRequest& request) {
 void add_outputs(CLI::App& verb, PlanRequest& request) {
   verb.add_option("-o,--output", request.robot.trajectory,
                   "The trajectory: CSV, for sunder tear --trajectory")
-      ->type_name("FILE")
-      ->required();
+      ->type_name("FILE");
   CLI::Option* const tear =
       verb.add_option("--tear", request.tear, "The model with that tear")->type_name("FILE");
   verb.add_option("--picture", request.picture, "PNG of the wound, with the robot")
       ->type_name("FILE")
       ->needs(tear);
   verb.add_option("--report", request.report, "File for a JSON report")->type_name("FILE");
+}
+
+void add_score(CLI::App& verb, PlanRequest& request, CLI::Option* hand) {
+  CLI::Option* const score =
+      verb.add_option("--score", request.score,
+                      "In place of a plan: how near to the curve a stroke was that was performed, "
+                      "a trajectory of the robot or a log")
+          ->type_name("FILE")
+          ->excludes(hand)
+          ->excludes("--output")
+          ->excludes("--tear");
+  takes(verb.add_option("--score-rate", request.score_rate, "Blades per second of that log"), kRate)
+      ->type_name("NUMBER")
+      ->needs(score);
+}
+
+/// What the options need of one another.
+void check_together(const CLI::App& verb, const PlanRequest& request) {
+  if (!request.score && verb.count("--output") == 0) throw CLI::RequiredError("--output");
+  if (!request.score && verb.count("--robot") + verb.count("--hand") == 0)
+    throw CLI::RequiredError("--robot or --hand");
+  if (verb.count("--robot") != 0 && request.robot.link.empty())
+    throw CLI::RequiredError("--blade (with --robot)");
+  if (request.robot.clip_speed > 0 && request.robot.pose.find('@') == std::string::npos)
+    throw CLI::ValidationError("--clip-speed", "needs --pose CLIP@TIME");
+  if (request.tear) check_output_format(verb, *request.tear);
 }
 
 }  // namespace
@@ -80,17 +106,10 @@ CLI::App* add_plan(CLI::App& app, PlanRequest& request) {
         kAcceleration)
       ->type_name("NUMBER");
   add_outputs(*verb, request);
+  add_score(*verb, request, hand);
   add_model_reading(*verb, request.reading);
   add_budget(*verb, request.budget);
-  verb->callback([&request, verb] {
-    if (verb->count("--robot") + verb->count("--hand") == 0)
-      throw CLI::RequiredError("--robot or --hand");
-    if (verb->count("--robot") != 0 && request.robot.link.empty())
-      throw CLI::RequiredError("--blade (with --robot)");
-    if (request.robot.clip_speed > 0 && request.robot.pose.find('@') == std::string::npos)
-      throw CLI::ValidationError("--clip-speed", "needs --pose CLIP@TIME");
-    if (request.tear) check_output_format(*verb, *request.tear);
-  });
+  verb->callback([&request, verb] { check_together(*verb, request); });
   verb->footer(
       "Exit code 1 if the curve cannot be made: what stops the blade, and the part that can.\n\n"
       "Example: sunder plan fox.glb --curve curve.json --robot arm.urdf --blade scalpel --pose "

@@ -52,7 +52,7 @@ class CurveReader {
     if (!json.contains("sunder_curve") || json["sunder_curve"] != 1)
       return malformed("/sunder_curve", "the version, 1");
     if (const Status status =
-            check_members(json, "", {"sunder_curve", "places", "closed", "depth", "angle"});
+            check_members(json, "", {"sunder_curve", "places", "closed", "depth", "angle", "gape"});
         !status)
       return status;
     if (!json.contains("places") || !json["places"].is_array())
@@ -66,6 +66,10 @@ class CurveReader {
     if (const Status status = read_profile(json, "depth", 1, target_.depth); !status) return status;
     if (const Status status = read_profile(json, "angle", kDegree, target_.angle); !status)
       return status;
+    if (json.contains("gape")) {
+      if (!json["gape"].is_number()) return malformed("/gape", "a number");
+      target_.gape = json["gape"].get<double>();
+    }
     return std::move(target_);
   }
 

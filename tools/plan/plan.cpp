@@ -1,6 +1,4 @@
-#include <sunder/io/robot_file.h>
 #include <sunder/io/trajectory_file.h>
-#include <sunder/skinning/pose.h>
 
 #include <deque>
 #include <optional>
@@ -16,11 +14,10 @@
 #include "tools/messages/text_file.h"
 #include "tools/messages/written_file.h"
 #include "tools/model/load_notes.h"
-#include "tools/model/name_advice.h"
-#include "tools/model/pose_argument.h"
-#include "tools/plan/curve_file.h"
 #include "tools/plan/hand_file.h"
+#include "tools/plan/plan_inputs.h"
 #include "tools/plan/plan_report.h"
+#include "tools/plan/score.h"
 
 namespace sunder::tools {
 namespace {
@@ -29,8 +26,10 @@ namespace {
 /// is none.
 std::string fault_of_outputs(const PlanRequest& request) {
   std::vector<NamedFile> inputs = {{"MODEL", request.model}, {"--curve", request.curve}};
-  std::vector<NamedFile> outputs = {{"--output", request.robot.trajectory}};
-  if (!request.hand) inputs.push_back({"--robot", request.robot.robot});
+  std::vector<NamedFile> outputs;
+  if (!request.robot.trajectory.empty()) outputs.push_back({"--output", request.robot.trajectory});
+  if (request.score) inputs.push_back({"--score", *request.score});
+  if (!request.robot.robot.empty()) inputs.push_back({"--robot", request.robot.robot});
   if (request.hand) outputs.push_back({"--hand", *request.hand});
   if (request.tear) outputs.push_back({"--tear", *request.tear});
   if (request.picture) outputs.push_back({"--picture", *request.picture});
@@ -39,67 +38,8 @@ std::string fault_of_outputs(const PlanRequest& request) {
   return fault.empty() ? impossible_output(outputs) : fault;
 }
 
-/// What is read, and what is made of it.
-struct PlanRun {
-  LoadedCharacter loaded;
-  WoundTarget target;
-  PlanTiming timing;
-  PlanTool tool;
-  std::string hand;  ///< The text of --hand.
-};
-
-ExitCode read_character(const PlanRequest& request, const Messages& messages, PlanRun& run) {
-  Result<LoadedCharacter> loaded = load_character(request.model, load_options(request.reading));
-  if (!loaded) return complain(request.model.string(), loaded.error(), ExitCode::unreadable_input);
-  run.loaded = std::move(*loaded);
-  warn_of_repairs(request.model.string(), run.loaded.report, messages);
-  const Character& character = *run.loaded.character;
-  const Result<PoseArgument> pose = parse_pose(request.robot.pose, character);
-  if (!pose)
-    return complain("--pose", pose.error(), ExitCode::usage,
-                    advice_on_pose(request.robot.pose, character));
-  if (!pose->remark.empty()) messages.warn("--pose: " + pose->remark);
-  run.timing = request.timing;
-  run.timing.pose = pose->spec;
-  run.timing.clip_speed = request.robot.clip_speed;
-  const Result<ModelPose> posed = make_pose(character, pose->spec);
-  if (!posed) return complain("--pose", posed.error(), ExitCode::usage);
-  Result<WoundTarget> target = read_curve(request.curve, run.loaded.character, *posed);
-  if (!target) return complain(request.curve.string(), target.error(), ExitCode::usage);
-  run.target = std::move(*target);
-  return ExitCode::ok;
-}
-
-ExitCode read_robot(const PlanRequest& request, const Messages& messages, PlanRun& run) {
-  const std::string& file = request.robot.robot.string();
-  Result<LoadedRobot> loaded = load_robot(request.robot.robot, robot_load_options(request.reading));
-  if (!loaded) return complain(file, loaded.error(), ExitCode::unreadable_input);
-  warn_of_protection(file, loaded->model.report, messages);
-  for (const RobotFinding& finding : loaded->findings)
-    if (finding.severity == RobotSeverity::warning)
-      messages.warn(file + ": " + (finding.place.empty() ? "" : finding.place + ": ") +
-                    finding.text);
-  std::vector<std::string> names;
-  for (const RobotLink& link : loaded->robot.links) names.push_back(link.name);
-  run.tool.blade = {find_link(loaded->robot, request.robot.link), request.robot.base,
-                    request.robot.tip};
-  if (run.tool.blade.link == kNone)
-    return complain("--blade",
-                    Status::failure(StatusCode::not_found, kNone, "the robot has no link '%.80s'",
-                                    request.robot.link.c_str()),
-                    ExitCode::usage, name_advice(request.robot.link, "links", names));
-  if (loaded->model.character != nullptr) {
-    Result<std::vector<BoneCollider>> shapes = fit_colliders(*loaded->model.character);
-    if (!shapes) return complain(file, shapes.error(), ExitCode::unreadable_input);
-    run.tool.shapes = std::move(*shapes);
-  }
-  run.tool.robot = std::move(loaded->robot);
-  run.tool.world_from_root = request.robot.place * loaded->model_from_root;
-  return ExitCode::ok;
-}
-
 /// Places a hand above the curve.
-ExitCode make_hand(const PlanRequest& request, PlanRun& run) {
+ExitCode make_hand(const PlanRequest& request, PlanInputs& run) {
   Result<PlanTool> hand =
       free_hand(run.loaded.character, run.target, run.timing, request.hand_blade);
   if (!hand) return complain(request.curve.string(), hand.error(), ExitCode::usage);
@@ -117,7 +57,7 @@ ExitCode make_hand(const PlanRequest& request, PlanRun& run) {
 }
 
 /// Writes trajectory, hand and report: all or none.
-ExitCode write_plan(const PlanRequest& request, const PlanRun& run, const PlannedMotion& planned,
+ExitCode write_plan(const PlanRequest& request, const PlanInputs& run, const PlannedMotion& planned,
                     const std::optional<PlannedBase>& base) {
   std::vector<std::pair<std::filesystem::path, std::string>> files;
   if (planned.report.is_reachable) {
@@ -170,9 +110,10 @@ ExitCode run_plan(const PlanRequest& request) {
   }
   const Messages messages(request.verbosity);
   std::optional<Budget> budget(std::in_place, request.budget, request.model.string());
-  PlanRun run;
+  PlanInputs run;
   if (const ExitCode code = read_character(request, messages, run); code != ExitCode::ok)
     return code;
+  if (request.score) return score_performed(request, messages, run);
   const ExitCode code = request.hand ? make_hand(request, run) : read_robot(request, messages, run);
   if (code != ExitCode::ok) return code;
   PlanOptions options = request.options;

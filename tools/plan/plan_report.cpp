@@ -14,6 +14,7 @@ const char* kind_name(PlanObstacle::Kind kind) {
     case PlanObstacle::Kind::joint_speed: return "joint_speed";
     case PlanObstacle::Kind::acceleration: return "acceleration";
     case PlanObstacle::Kind::collision: return "collision";
+    case PlanObstacle::Kind::self_collision: return "self_collision";
     case PlanObstacle::Kind::wound: return "wound";
     case PlanObstacle::Kind::reach: break;
   }
@@ -54,6 +55,9 @@ std::string obstacle_text(const PlanObstacle& obstacle) {
     case PlanObstacle::Kind::collision:
       return printed("link '%s' would be inside the model at %.0f %% of the curve", name.c_str(),
                      at);
+    case PlanObstacle::Kind::self_collision:
+      return printed("links '%s' and '%s' would be inside one another at %.0f %% of the curve",
+                     name.c_str(), obstacle.other.c_str(), at);
     case PlanObstacle::Kind::wound:
       return printed(
           "joints follow the curve, but the tear leaves it at %.0f %%: the blade meets "
@@ -84,6 +88,7 @@ Json plan_json(const PlanRequest& request, const PlanReport& report,
   for (const PlanObstacle& obstacle : report.obstacles)
     obstacles.push_back({{"kind", kind_name(obstacle.kind)},
                          {"value", obstacle.value.empty() ? Json() : Json(obstacle.value)},
+                         {"other", obstacle.other.empty() ? Json() : Json(obstacle.other)},
                          {"at", obstacle.at}});
   if (base) {
     const Vec3d place = place_of_base(request, *base);
@@ -97,9 +102,12 @@ Json plan_json(const PlanRequest& request, const PlanReport& report,
   json["angle_error"] =
       error_json(degrees(report.most_angle_error), degrees(report.mean_angle_error));
   json["least_clearance"] = number(report.least_clearance);
+  json["least_self_clearance"] = number(report.least_self_clearance);
   json["lips"] = {{"hausdorff", number(report.hausdorff)},
                   {"mean_distance", number(report.mean_distance)},
                   {"hausdorff_in_clips", number(report.hausdorff_in_clips)}};
+  if (report.gape)
+    json["gape"] = {{"tension", report.gape->tension}, {"widest", report.gape->widest}};
   Json& values = json["values"] = Json::array();
   for (const ValueMargin& margin : report.values) values.push_back(value_json(margin));
   return json;
@@ -123,8 +131,13 @@ std::string plan_summary(const PlanReport& report) {
                   report.mean_depth_error);
   text += printed("angle       off by %.3g degrees at most, %.3g on average\n",
                   degrees(report.most_angle_error), degrees(report.mean_angle_error));
+  if (report.gape)
+    text += printed("gape        %.3g m under a tension of %.4g N/m\n", report.gape->widest,
+                    report.gape->tension);
   if (std::isfinite(report.least_clearance))
     text += printed("links       at least %.3g m from the model\n", report.least_clearance);
+  if (std::isfinite(report.least_self_clearance))
+    text += printed("links       at least %.3g m from one another\n", report.least_self_clearance);
   for (const ValueMargin& margin : report.values) {
     text += printed("%-11s %.4g to %.4g", margin.name.c_str(), margin.least, margin.greatest);
     if (std::isfinite(margin.to_limits)) text += printed(", %.3g to its limits", margin.to_limits);

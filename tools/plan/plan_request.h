@@ -18,6 +18,9 @@ struct PlanRequest {
   double hand_blade = 0.1;                    ///< Length of its blade, metres.
   PlanTiming timing;                          ///< But for the pose and the clip's speed.
   PlanOptions options;
+  /// A trajectory of the robot, or a log, that is compared with the curve in place of a plan.
+  std::optional<std::filesystem::path> score;
+  double score_rate = 0;  ///< Blades per second of that log; 0: not known.
   std::optional<std::filesystem::path> tear, picture, report;  ///< Outputs.
   Verbosity verbosity = Verbosity::normal;
   ModelReading reading;

@@ -2,15 +2,18 @@
 
 #include <sunder/operation/operation.h>
 #include <sunder/particles/fitted_colliders.h>
+#include <sunder/particles/material.h>
 #include <sunder/robot/robot.h>
 #include <sunder/robot/trajectory.h>
 #include <sunder/tear/contact.h>
 #include <sunder/tear/report.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -32,6 +35,9 @@ struct WoundTarget {
   /// Between the blade and the surface along the curve, radians, in (0, pi): one for the curve, or
   /// one per place. Below a right angle the blade's base leans in the direction of travel.
   std::vector<double> angle = {std::numbers::pi / 2};
+  /// How wide the wound shall gape in soft tissue where it is widest, metres; 0: not asked for. A
+  /// closed curve has none.
+  double gape = 0;
 };
 
 /// When the character is in which pose, and how long the motion takes.
@@ -53,8 +59,9 @@ struct PlanTool {
   MountedBlade blade;
   Affine3d world_from_root = Affine3d::Identity();  ///< In the character's model space.
   /// Shapes of links, bones being links: those that fit_colliders() finds around the robot's
-  /// character. They stay outside of the character but for those of the blade's link. Links without
-  /// a shape may be anywhere.
+  /// character. They stay outside of the character but for those of the blade's link, and outside
+  /// of one another but for those of neighbours and those that overlap anyway: docs/plan.md. Links
+  /// without a shape may be anywhere.
   std::vector<BoneCollider> shapes;
 };
 
@@ -67,6 +74,8 @@ struct PlanOptions {
   double clearance = 0.005;           ///< Wanted between links and character, metres; > 0.
   std::uint32_t seeds = 24;           ///< Random starts of the inverse kinematics.
   TearOptions tear;                   ///< Of the tear that is made.
+  /// Of the tissue, for WoundTarget::gape; empty: the preset "skin".
+  std::optional<SoftMaterial> material;
 };
 
 /// How much room a value of the robot keeps during a planned motion. Units of the value.
@@ -81,11 +90,12 @@ struct ValueMargin {
 /// The reason why a motion is not possible.
 struct PlanObstacle {
   enum class Kind : std::uint8_t {
-    joint_limit,   ///< Without the limit of `value` the blade would come there.
-    joint_speed,   ///< `value` would have to move faster than its limit.
-    acceleration,  ///< `value` would have to accelerate more than is allowed.
-    reach,         ///< No values of the joints, within limits or not, bring the blade there.
-    collision,     ///< The link `value` would be inside the character.
+    joint_limit,     ///< Without the limit of `value` the blade would come there.
+    joint_speed,     ///< `value` would have to move faster than its limit.
+    acceleration,    ///< `value` would have to accelerate more than is allowed.
+    reach,           ///< No values of the joints, within limits or not, bring the blade there.
+    collision,       ///< The link `value` would be inside the character.
+    self_collision,  ///< The links `value` and `other` would be inside one another.
     /// Joints follow the curve, but the tear does not: the blade meets other parts of the surface,
     /// or the surface along the curve is not connected.
     wound,
@@ -93,7 +103,18 @@ struct PlanObstacle {
   Kind kind = Kind::reach;
   /// Name in Robot::values, or of a link; empty for `reach` and `wound`.
   std::string value;
-  double at = 0;  ///< Share of the curve's length where it is met.
+  double at = 0;           ///< Share of the curve's length where it is met.
+  std::string other = {};  ///< Name of the second link of a `self_collision`.
+};
+
+/// How the lips of the torn copy gape as soft tissue.
+struct PlannedGape {
+  /// Tension::newtons_per_metre. The first guess is that of tension_for_gap(), which is for a flat
+  /// surface; it is corrected by what the copy does.
+  double tension = 0;
+  /// The greatest distance of two points of the lips that were one, metres, when the tissue has
+  /// come to rest under that tension in the pose in which the cut ends.
+  double widest = 0;
 };
 
 struct PlanReport {
@@ -118,11 +139,15 @@ struct PlanReport {
   /// Least distance of a link's shape from the character at 65 times, metres; infinity without
   /// shapes, and if no link comes near.
   double least_clearance = 0;
+  /// Least distance of the shapes of two links that are no neighbours, at 257 times, metres; at
+  /// most ten times PlanOptions::clearance. Infinity if no two could meet.
+  double least_self_clearance = 0;
   /// The motion tears a copy. Largest and mean distance of its lips and the curve from one another,
   /// metres, in the pose in which the cut begins, and the largest one in all sampled poses of
   /// all clips. Infinity if it tears nothing; 0 if no motion was found.
   double hausdorff = 0, mean_distance = 0, hausdorff_in_clips = 0;
-  TearReport torn;  ///< Of that copy, which is torn without width and walls.
+  TearReport torn;                  ///< Of that copy, which is torn without width and walls.
+  std::optional<PlannedGape> gape;  ///< If one is wanted, of a curve that is reached.
 };
 
 struct PlannedMotion {
@@ -143,6 +168,61 @@ struct PlannedMotion {
 [[nodiscard]] SUNDER_API Result<PlannedMotion> plan_motion(
     const std::shared_ptr<const Character>& character, const WoundTarget& target,
     const PlanTiming& timing, const PlanTool& tool, const PlanOptions& options = {});
+
+/// Speed and smoothness of a stroke, between 10 and 90 % of the part of the curve that it cuts.
+struct StrokePace {
+  double seconds = 0;  ///< From the first to the last blade in the surface.
+  /// Along the curve, metres per second; wanted: where it is even in PlanTiming::cut.
+  double speed = 0, wanted_speed = 0;
+  /// Of the times that 16 equal parts take: standard deviation over mean. 0: even.
+  double unevenness = 0;
+  /// Log dimensionless jerk (Balasubramanian et al. 2012) of the place of the blade that is at the
+  /// surface on average, the nearer to 0 the smoother; wanted: that of the curve at the same times,
+  /// or of a straight reach of least jerk where that one is greater. Empty for fewer than 16 blades
+  /// there.
+  std::optional<double> log_jerk, wanted_log_jerk;
+};
+
+/// How far a stroke that was performed is from the one that was asked for.
+struct StrokeScore {
+  /// At most, and on average over the way that the blade cuts.
+  struct Error {
+    double most = 0, mean = 0;
+  };
+  /// From 0 to 100. The whole: docs/plan.md.
+  struct Marks {
+    double whole = 0, covered = 0, place = 0, depth = 0, angle = 0;
+    std::optional<double> speed, smoothness;  ///< Empty if they are not known.
+  };
+  double curve_length = 0, tolerance = 0;  ///< Metres.
+  std::size_t blades = 0;                  ///< Of the stroke that cross the surface inwards.
+  bool is_backwards = false;               ///< It was made from the curve's end to its begin.
+  double covered = 0;  ///< Share of the curve that it cuts, up to five tolerances beside it.
+  Error place;         ///< Between the blade's entry and the curve, metres.
+  /// Of the tip, metres; 0 where it is not. The first and last 3 % of the curve do not count.
+  Error too_deep, too_shallow;
+  double wanted_depth = 0;  ///< On average, metres.
+  Error angle;              ///< Between the blade and the wanted one, radians.
+  std::optional<StrokePace> pace;
+  Marks marks;
+};
+
+/// Compares a stroke that was performed, by a robot, a hand or a controller, with what was asked
+/// for: what a tutor would say about it.
+/// @param timing     its pose lays the curve on the surface; its cut gives the speed. Slower is no
+///                   fault with PlanTiming::may_take_longer.
+/// @param performed  the blades, and the pose of the character at each of them: that of
+///                   tear_of_sweep(), or of a log.
+/// @param times      one per blade, seconds, increasing; or empty: neither speed nor smoothness are
+///                   judged.
+/// @param tolerance  metres; 0: as PlanOptions::tolerance.
+/// @return the failures of plan_motion() for character, target and timing; empty_input for fewer
+///         than two blades; size_mismatch, non_finite_value or invalid_argument, which name the
+///         blade. O(blades x (pose + 240)). Allocates.
+[[nodiscard]] SUNDER_API Result<StrokeScore> score_stroke(
+    const std::shared_ptr<const Character>& character, const WoundTarget& target,
+    const PlanTiming& timing, const TearOperation& performed, std::span<const double> times = {},
+    double tolerance = 0);
 
 /// Where a robot could stand to make a curve, and what it does there.
 struct PlannedBase {
