@@ -215,6 +215,27 @@ void add_open(CLI::App& verb, TearRequest& request) {
   });
 }
 
+void add_tissue_fields(CLI::App& verb, TearRequest& request) {
+  verb.add_option_function<std::vector<std::string>>(
+          "--tissue-field",
+          [&request](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts) {
+              const Result<TissueField> field = parse_tissue_field(text);
+              std::string fault(field.error().text());
+              if (field && std::ranges::find(request.tissue_fields, field->factor,
+                                             &TissueField::factor) != request.tissue_fields.end())
+                fault = "a second field of " + field->factor;
+              if (!fault.empty()) throw CLI::ValidationError("--tissue-field " + text, fault);
+              request.tissue_fields.push_back(*field);
+            }
+          },
+          "How the tissue of --open and --picture varies: stiffness, tension or thickness by a "
+          "factor that is bone:NAME, color:COLOR_0, attribute:_NAME or texture:FILE.png; at_zero "
+          "and at_one: the factors at 0 and 1. Once per factor")
+      ->allow_extra_args(false)
+      ->type_name("FACTOR=SOURCE[,at_zero=F][,at_one=F]");
+}
+
 /// As add_open(): its value is after "=".
 void add_blood(CLI::App& verb, TearRequest& request) {
   constexpr NumberRange kReach = {.field = "the value", .least = 1e-6, .most = 1e6, .unit = " m"};
@@ -266,6 +287,7 @@ CLI::App* add_tear(CLI::App& app, TearRequest& request) {
   add_maximum_error(*verb, request.maximum_error, &request.robot_limits);
   add_report_options(*verb, request);
   add_open(*verb, request);
+  add_tissue_fields(*verb, request);
   add_blood(*verb, request);
   verb->add_option("--picture", request.picture,
                    "File for a picture (PNG) of the torn model, with lips and pieces pulled apart")
@@ -286,6 +308,8 @@ CLI::App* add_tear(CLI::App& app, TearRequest& request) {
     if (has_robot(*verb, *robot, true)) request.robot = *robot;
     if (request.operations.empty() && request.aimed.empty() && !request.robot)
       throw CLI::RequiredError("--ops (or --slash, --sever, --puncture, --robot)");
+    if (!request.tissue_fields.empty() && request.open == OpenLips::no && !request.picture)
+      throw CLI::ValidationError("--tissue-field", "needs --open or --picture");
     if (!request.dry_run && !request.output) throw CLI::RequiredError("--output (or --dry-run)");
     if (request.output) check_output(*verb, request);
   });
