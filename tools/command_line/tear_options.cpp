@@ -183,38 +183,6 @@ void add_open_span(CLI::App& verb, CLI::Option* open, TearRequest& request) {
       ->needs(open);
 }
 
-/// A flag that may have a value after "=", so that it takes no other argument for it.
-void add_open(CLI::App& verb, TearRequest& request) {
-  const auto form = std::make_shared<std::string>();
-  CLI::Option* const flag =
-      verb.add_flag("--open{morph}", *form,
-                    "Write lips that gape, as a morph target and an animation of its weight from "
-                    "the moment of the tear; --open=baked: in the positions themselves");
-  flag->check([form](const std::string& value) {
-    const bool is_known = value == "morph" || value == "baked" || value == "true";
-    return is_known ? std::string() : "expected --open, --open=morph or --open=baked";
-  });
-  add_open_span(verb, flag, request);
-  verb.add_option_function<std::string>(
-          "--flesh",
-          [&request](const std::string& text) {
-            const Result<FleshOption> flesh = parse_flesh(text);
-            if (!flesh) throw CLI::ValidationError("--flesh", std::string(flesh.error().text()));
-            request.flesh = *flesh;
-          },
-          "What caps, walls and the ground between gaping lips are made of: a colour (#8a2b22), "
-          "roughness=SHARE and name=TEXT, separated by commas; source: the material of the surface "
-          "beside; none: as that, and no ground between lips")
-      ->type_name("FLESH")
-      ->default_str("red flesh; the material of the surface beside on cloth, metal and things");
-  verb.parse_complete_callback([&verb, form, &request] {
-    if (verb.count("--open") > 0)
-      request.open = *form == "baked" ? OpenLips::baked : OpenLips::morph;
-    if (request.open_span && request.open == OpenLips::baked)
-      throw CLI::ValidationError("--open-span", "needs --open or --open=morph");
-  });
-}
-
 void add_tissue_fields(CLI::App& verb, TearRequest& request) {
   verb.add_option_function<std::vector<std::string>>(
           "--tissue-field",
@@ -234,6 +202,41 @@ void add_tissue_fields(CLI::App& verb, TearRequest& request) {
           "and at_one: the factors at 0 and 1. Once per factor")
       ->allow_extra_args(false)
       ->type_name("FACTOR=SOURCE[,at_zero=F][,at_one=F]");
+}
+
+/// A flag that may have a value after "=", so that it takes no other argument for it.
+void add_open(CLI::App& verb, TearRequest& request) {
+  const auto form = std::make_shared<std::string>();
+  CLI::Option* const flag =
+      verb.add_flag("--open{morph}", *form,
+                    "Write lips that gape, as a morph target and an animation of its weight from "
+                    "the moment of the tear; --open=baked: in the positions themselves");
+  flag->check([form](const std::string& value) {
+    const bool is_known = value == "morph" || value == "baked" || value == "true";
+    return is_known ? std::string() : "expected --open, --open=morph or --open=baked";
+  });
+  add_open_span(verb, flag, request);
+  add_tissue_fields(verb, request);
+  verb.add_option_function<std::string>(
+          "--flesh",
+          [&request](const std::string& text) {
+            const Result<FleshOption> flesh = parse_flesh(text);
+            if (!flesh) throw CLI::ValidationError("--flesh", std::string(flesh.error().text()));
+            request.flesh = *flesh;
+          },
+          "What caps, walls and the ground between gaping lips are made of: a colour (#8a2b22), "
+          "roughness=SHARE and name=TEXT, separated by commas; source: the material of the surface "
+          "beside; none: as that, and no ground between lips")
+      ->type_name("FLESH")
+      ->default_str("red flesh; the material of the surface beside on cloth, metal and things");
+  verb.parse_complete_callback([&verb, form, &request] {
+    if (verb.count("--open") > 0)
+      request.open = *form == "baked" ? OpenLips::baked : OpenLips::morph;
+    if (request.open_span && request.open == OpenLips::baked)
+      throw CLI::ValidationError("--open-span", "needs --open or --open=morph");
+    if (!request.tissue_fields.empty() && request.open == OpenLips::no && !request.picture)
+      throw CLI::ValidationError("--tissue-field", "needs --open or --picture");
+  });
 }
 
 /// As add_open(): its value is after "=".
@@ -287,7 +290,6 @@ CLI::App* add_tear(CLI::App& app, TearRequest& request) {
   add_maximum_error(*verb, request.maximum_error, &request.robot_limits);
   add_report_options(*verb, request);
   add_open(*verb, request);
-  add_tissue_fields(*verb, request);
   add_blood(*verb, request);
   verb->add_option("--picture", request.picture,
                    "File for a picture (PNG) of the torn model, with lips and pieces pulled apart")
@@ -308,8 +310,6 @@ CLI::App* add_tear(CLI::App& app, TearRequest& request) {
     if (has_robot(*verb, *robot, true)) request.robot = *robot;
     if (request.operations.empty() && request.aimed.empty() && !request.robot)
       throw CLI::RequiredError("--ops (or --slash, --sever, --puncture, --robot)");
-    if (!request.tissue_fields.empty() && request.open == OpenLips::no && !request.picture)
-      throw CLI::ValidationError("--tissue-field", "needs --open or --picture");
     if (!request.dry_run && !request.output) throw CLI::RequiredError("--output (or --dry-run)");
     if (request.output) check_output(*verb, request);
   });
