@@ -17,6 +17,7 @@
 #include "tools/messages/messages.h"
 #include "tools/model/model_reading.h"
 #include "tools/open/flesh_option.h"
+#include "tools/open/tissue_field.h"
 #include "tools/render/camera.h"
 #include "tools/tear/refit.h"
 #include "tools/tear/wound_channels.h"
@@ -97,7 +98,8 @@ struct TearRequest {
     double begin = 0;  ///< Seconds of the clip.
     std::optional<double> end = {};
   };
-  std::optional<OpenSpan> open_span;  ///< With `open`.
+  std::optional<OpenSpan> open_span;       ///< With `open`.
+  std::vector<TissueField> tissue_fields;  ///< With `open` or `picture`; of each factor one.
   /// Blood on the textures so far from lips, metres; 0: as the size of the model suggests.
   std::optional<double> blood;
   std::optional<Vec3d> facing;   ///< Of the character, for `aimed`; empty: as the rig tells.

@@ -55,7 +55,10 @@ void widen_front(StructureEdit& edit, Index& points) {
         const BandPoint at = {point, chain.places[beside.place], distance};
         visit(edit, band.chains, chain, at);
         spend(cover_row(edit, chain, at), points);
-        if (!is_covered(edit, point)) band.uncovered = point;
+        if (edit.memberships(point).empty())
+          spend(cover(edit, point), points);  // at once, because it would stand still meanwhile
+        else if (!is_covered(edit, point))
+          band.uncovered = point;
       }
     }
     spend(1, points);

@@ -179,6 +179,9 @@ Status WoundMask::State::check_in_step(const TornModel& model) const {
 }
 
 Result<std::vector<float>> WoundMask::channel(const TornModel& model, WoundChannel wanted) const {
+  if (wanted != WoundChannel::age && wanted != WoundChannel::depth)
+    return Status::failure(StatusCode::invalid_argument, kNone, "there is no wound channel %d",
+                           static_cast<int>(wanted));
   return or_out_of_memory([&]() -> Result<std::vector<float>> {
     if (const Status status = model.unpack(); !status) return status;
     if (const Status status = state_->check_in_step(model); !status) return status;

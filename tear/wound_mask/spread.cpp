@@ -1,28 +1,30 @@
 #include "tear/wound_mask/spread.h"
 
+#include <algorithm>
 #include <numbers>
+#include <utility>
 
 #include "core/internal/elementary.h"
 
 namespace sunder::tear {
 namespace {
 
-constexpr double kAngleRounding = 1e-9;  ///< Radians.
-constexpr double kThinnestFan = 1e-12;   ///< Radians; thinner fans hold no place of their own.
+constexpr double kAngleRounding = 1e-9;     ///< Radians.
+constexpr double kCrossingRounding = 1e-9;  ///< Relative.
+constexpr double kThinnestFan = 1e-12;      ///< Radians; thinner fans hold no place of their own.
 
-/// Where a ray from a fan's point crosses an edge.
-Flat where_ray_crosses(const Beam& beam, Flat direction, Flat a, Flat b) {
+/// Where a ray from a fan's point crosses an edge: a share of it.
+double where_ray_crosses(const Beam& beam, Flat direction, Flat a, Flat b) {
   const double at_a = cross(a - beam.from, direction), at_b = cross(b - beam.from, direction);
   const double change = at_a - at_b;
-  return a + (change != 0 ? std::clamp(at_a / change, 0.0, 1.0) : 0.0) * (b - a);
+  return change != 0 ? std::clamp(at_a / change, 0.0, 1.0) : 0.0;
 }
 
-/// The distance of an edge of a face from a lip, at a place along the lip.
-double strip_height(const Beam& beam, double along, Flat a, Flat b) {
+/// Which share of an edge of a face is at a place along a lip.
+double where_strip_crosses(const Beam& beam, double along, Flat a, Flat b) {
   const double at_a = dot(a - beam.from, beam.along), at_b = dot(b - beam.from, beam.along);
   const double change = at_b - at_a;
-  const double part = change != 0 ? std::clamp((along - at_a) / change, 0.0, 1.0) : 0.0;
-  return std::abs(cross(beam.along, a + part * (b - a) - beam.from));
+  return change != 0 ? std::clamp((along - at_a) / change, 0.0, 1.0) : 0.0;
 }
 
 }  // namespace
@@ -39,6 +41,7 @@ std::span<const SpreadBeam> Spread::from(Index face, std::span<const LipSegment>
   finish();
   for (const Index point : met_) nearest_[point] = Beam::kNotSeen;
   met_.clear();
+  crossings_.clear();
   return beams_;
 }
 
@@ -152,7 +155,15 @@ void Spread::pass_fan(const Entered& entered) {
 void Spread::send_strip(Index half_edge, Beam beam, double low, double high) {
   if (!(low < high)) return;
   const Flat a = faces_.corner(half_edge), b = faces_.corner(Surface::next(half_edge));
-  if (std::min(strip_height(beam, low, a, b), strip_height(beam, high, a, b)) >= reach_) return;
+  const double at_low = where_strip_crosses(beam, low, a, b),
+               at_high = where_strip_crosses(beam, high, a, b);
+  const auto height = [&](double share) {
+    return std::abs(cross(beam.along, a + share * (b - a) - beam.from));
+  };
+  const auto [least, most] = std::minmax({height(at_low), height(at_high)});
+  if (least >= reach_) return;
+  const auto [begin, end] = std::minmax({at_low, at_high});
+  if (is_covered(half_edge, {begin, end, least, most})) return;
   beam.low = low;
   beam.high = high;
   enter(half_edge, beam);
@@ -161,12 +172,31 @@ void Spread::send_strip(Index half_edge, Beam beam, double low, double high) {
 void Spread::send_fan(Index half_edge, Beam beam, Flat left, Flat right) {
   if (!(cross(right, left) > kThinnestFan)) return;
   const Flat a = faces_.corner(half_edge), b = faces_.corner(Surface::next(half_edge));
-  const Flat nearest = nearest_on_segment(beam.from, where_ray_crosses(beam, right, a, b),
-                                          where_ray_crosses(beam, left, a, b));
-  if (beam.offset + length(nearest - beam.from) >= reach_) return;
+  const double at_right = where_ray_crosses(beam, right, a, b),
+               at_left = where_ray_crosses(beam, left, a, b);
+  const Flat from = a + at_right * (b - a), to = a + at_left * (b - a);
+  const double least = beam.offset + length(nearest_on_segment(beam.from, from, to) - beam.from);
+  if (least >= reach_) return;
+  const double most = beam.offset + std::max(length(from - beam.from), length(to - beam.from));
+  const auto [begin, end] = std::minmax({at_right, at_left});
+  if (is_covered(half_edge, {begin, end, least, most})) return;
   beam.left = left;
   beam.right = right;
   enter(half_edge, beam);
+}
+
+bool Spread::is_covered(Index half_edge, Crossing crossing) {
+  const Index twin = faces_.surface.twin[half_edge];
+  if (twin < half_edge) crossing.begin = 1 - std::exchange(crossing.end, 1 - crossing.begin);
+  const auto [found, is_first] = crossings_.try_emplace(std::min(half_edge, twin), crossing);
+  if (is_first) return false;
+  Crossing& widest = found->second;
+  if (crossing.least > widest.most * (1 + kCrossingRounding) &&
+      crossing.begin >= widest.begin - kCrossingRounding &&
+      crossing.end <= widest.end + kCrossingRounding)
+    return true;
+  if (crossing.end - crossing.begin > widest.end - widest.begin) widest = crossing;
+  return false;
 }
 
 void Spread::see_corner(Index corner, const Beam& beam) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "tear/wound_mask/beam.h"
@@ -45,6 +46,13 @@ class Spread {
     double distance = 0;
   };
 
+  /// Where a beam crosses an edge: shares of its length from its half-edge of the lower index, and
+  /// the distances from the lip there.
+  struct Crossing {
+    double begin = 0, end = 0;
+    double least = 0, most = 0;
+  };
+
   void start_segment(Index face, const LipSegment& lip);
   void start_point(Index face, const std::array<double, 3>& place);
   void shine_from_point(Index face, Flat place, double offset);
@@ -56,6 +64,9 @@ class Spread {
   /// Sends the part of a beam between two limits across an edge.
   void send_strip(Index half_edge, Beam beam, double low, double high);
   void send_fan(Index half_edge, Beam beam, Flat left, Flat right);
+  /// Whether another beam crosses the same part of the edge on shorter paths. Without it, beams
+  /// would wind around a needle, whose girth is nothing, until memory ends.
+  [[nodiscard]] bool is_covered(Index half_edge, Crossing crossing);
   void see_corner(Index corner, const Beam& beam);
   void bend(const Bend& around);
 
@@ -63,6 +74,7 @@ class Spread {
   double reach_;
   std::vector<double> nearest_;  ///< Per point: the shortest path that bends there.
   std::vector<Index> met_;       ///< Points with a known path.
+  std::unordered_map<Index, Crossing> crossings_;  ///< Per edge: the widest one.
   std::vector<Entered> entered_;
   std::vector<Bend> bends_;
   std::vector<SpreadBeam> beams_;

@@ -284,6 +284,8 @@ TEST(WoundChannels, refuse_what_they_cannot_tell) {
   EXPECT_EQ(code_of(mask.channel(make_model(test::make_sheet(5)), WoundChannel::depth)),
             StatusCode::invalid_argument);
   const WoundMask now = mask_of(model, channel_options(0.1));
+  EXPECT_EQ(code_of(now.channel(model, static_cast<WoundChannel>(7))),
+            StatusCode::invalid_argument);
   std::vector<Vec3f> posed = model.character().meshes[0].positions;
   EXPECT_EQ(code_of(now.stretches(model, posed)), StatusCode::ok);
   posed[3].x() = std::nanf("");

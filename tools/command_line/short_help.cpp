@@ -9,25 +9,14 @@ namespace {
 
 constexpr const char* kDetails = "Details";
 constexpr const char* kGroupsOfDetails[] = {kDetails, "A robot", "Closing wounds"};
-constexpr const char* kDetailedOptions[] = {"--animated-pieces",
-                                            "--count-topology",
-                                            "--import-seconds",
-                                            "--limits",
-                                            "--max-error",
-                                            "--max-memory",
-                                            "--max-seconds",
-                                            "--max-vertices",
-                                            "--memory",
-                                            "--open-span",
-                                            "--package-root",
-                                            "--refit-bound",
-                                            "--refit-over",
-                                            "--strict",
-                                            "--weights-as",
-                                            "--weight-errors",
-                                            "--wound-mask-channels",
-                                            "--wound-mask-reach",
-                                            "--wound-mask-size"};
+constexpr const char* kDetailedOptions[] = {
+    "--animated-pieces",  "--count-topology", "--import-seconds",
+    "--limits",           "--max-error",      "--max-memory",
+    "--max-seconds",      "--max-vertices",   "--memory",
+    "--open-span",        "--package-root",   "--refit-bound",
+    "--refit-over",       "--strict",         "--tissue-field",
+    "--weights-as",       "--weight-errors",  "--wound-mask-channels",
+    "--wound-mask-reach", "--wound-mask-size"};
 
 }  // namespace
 

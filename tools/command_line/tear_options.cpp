@@ -183,6 +183,27 @@ void add_open_span(CLI::App& verb, CLI::Option* open, TearRequest& request) {
       ->needs(open);
 }
 
+void add_tissue_fields(CLI::App& verb, TearRequest& request) {
+  verb.add_option_function<std::vector<std::string>>(
+          "--tissue-field",
+          [&request](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts) {
+              const Result<TissueField> field = parse_tissue_field(text);
+              std::string fault(field.error().text());
+              if (field && std::ranges::find(request.tissue_fields, field->factor,
+                                             &TissueField::factor) != request.tissue_fields.end())
+                fault = "a second field of " + field->factor;
+              if (!fault.empty()) throw CLI::ValidationError("--tissue-field " + text, fault);
+              request.tissue_fields.push_back(*field);
+            }
+          },
+          "How the tissue of --open and --picture varies: stiffness, tension or thickness by a "
+          "factor that is bone:NAME, color:COLOR_0, attribute:_NAME or texture:FILE.png; at_zero "
+          "and at_one: the factors at 0 and 1. Once per factor")
+      ->allow_extra_args(false)
+      ->type_name("FACTOR=SOURCE[,at_zero=F][,at_one=F]");
+}
+
 /// A flag that may have a value after "=", so that it takes no other argument for it.
 void add_open(CLI::App& verb, TearRequest& request) {
   const auto form = std::make_shared<std::string>();
@@ -195,6 +216,7 @@ void add_open(CLI::App& verb, TearRequest& request) {
     return is_known ? std::string() : "expected --open, --open=morph or --open=baked";
   });
   add_open_span(verb, flag, request);
+  add_tissue_fields(verb, request);
   verb.add_option_function<std::string>(
           "--flesh",
           [&request](const std::string& text) {
@@ -212,6 +234,8 @@ void add_open(CLI::App& verb, TearRequest& request) {
       request.open = *form == "baked" ? OpenLips::baked : OpenLips::morph;
     if (request.open_span && request.open == OpenLips::baked)
       throw CLI::ValidationError("--open-span", "needs --open or --open=morph");
+    if (!request.tissue_fields.empty() && request.open == OpenLips::no && !request.picture)
+      throw CLI::ValidationError("--tissue-field", "needs --open or --picture");
   });
 }
 

@@ -78,12 +78,13 @@ std::vector<Opening::Moment> few_moments(const std::vector<double>& share) {
 }  // namespace
 
 Result<Opening> measure_opening(std::shared_ptr<const Character> character,
-                                std::span<const Operation> history) {
+                                std::span<const Operation> history,
+                                const AuthoredTissue& authored) {
   Opening opening;
   const Result<ModelPose> pose = make_pose(*character, pose_of_last_tear(history));
   if (!pose) return pose.error();
   opening.pose = *pose;
-  Result<GapingModel> model = make_gaping_model(std::move(character), history, *pose);
+  Result<GapingModel> model = make_gaping_model(std::move(character), history, *pose, authored);
   if (!model) return model.error();
   CharacterInstance& instance = model->instance;
   Tension tension = std::exchange(model->tension, {});

@@ -2,6 +2,7 @@
 
 #include <sunder/core/character.h>
 #include <sunder/operation/operation.h>
+#include <sunder/particles/authored_tissue.h>
 #include <sunder/skinning/deform.h>
 
 #include <memory>
@@ -28,9 +29,11 @@ struct Opening {
 };
 
 /// Tears a character of soft tissue, and lets its lips open until nothing moves.
-/// @param history  operations that are valid for the character; at least one.
+/// @param history   operations that are valid for the character; at least one.
+/// @param authored  the fields of the tissue; empty: uniform.
 /// @return the first failure of an operation. Without lips, nothing is open.
 [[nodiscard]] Result<Opening> measure_opening(std::shared_ptr<const Character> character,
-                                              std::span<const Operation> history);
+                                              std::span<const Operation> history,
+                                              const AuthoredTissue& authored);
 
 }  // namespace sunder::tools

@@ -130,12 +130,13 @@ Result<TornSource> measure(const std::shared_ptr<const Character>& character,
 }
 
 Result<CharacterInstance> make_soft_instance(std::shared_ptr<const Character> character,
-                                             double range) {
+                                             double range, const AuthoredTissue& authored) {
   CharacterAssetOptions options;
   options.unit_length = true;
   options.soft.emplace();
   options.soft->decomposition.range = range;
   options.soft->tension = {kFirstTension, {}};
+  options.soft->authored = authored;
   Result<CharacterInstance> instance = CharacterInstance::create(std::move(character), options);
   if (!instance) return instance;
   if (const Status status = instance->prepare_to_tear(); !status) return status;
@@ -162,17 +163,32 @@ Status apply_to(GapingModel& model, std::span<const Operation> operations) {
   return {};
 }
 
+/// Makes a model anew of authored tissue, under the tension that was chosen for uniform tissue: a
+/// choice on authored tissue would undo what its author wants to see.
+Status author(std::shared_ptr<const Character> character, double range,
+              const AuthoredTissue& authored, std::span<const Operation> tears,
+              GapingModel& model) {
+  Result<CharacterInstance> instance = make_soft_instance(std::move(character), range, authored);
+  if (!instance) return instance.error();
+  GapingModel made{std::move(*instance), {}, {}, model.tension};
+  if (const Status status = apply_to(made, tears); !status) return status;
+  if (const Status status = made.instance.body()->set_tension(made.tension); !status) return status;
+  model = std::move(made);
+  return {};
+}
+
 }  // namespace
 
 Result<GapingModel> make_gaping_model(std::shared_ptr<const Character> character,
-                                      std::span<const Operation> history, const ModelPose& pose) {
+                                      std::span<const Operation> history, const ModelPose& pose,
+                                      const AuthoredTissue& authored) {
   const Result<TornSource> source = measure(character, history, pose);
   if (!source) return source.error();
   double range = kMostRange;
   if (source->greatest_length > 0)
     range = std::clamp(kRangeOfLength * source->greatest_length / source->diagonal, kLeastRange,
                        kMostRange);
-  Result<CharacterInstance> instance = make_soft_instance(std::move(character), range);
+  Result<CharacterInstance> instance = make_soft_instance(character, range, {});
   if (!instance) return instance.error();
   GapingModel model{std::move(*instance), {}, {}, {kFirstTension, {}}};
   // Threads hold wounds that would gape as wide as others: the tension is that without them.
@@ -180,6 +196,9 @@ Result<GapingModel> make_gaping_model(std::shared_ptr<const Character> character
   if (const Status status = apply_to(model, tears); !status) return status;
   if (const Status status = choose_tensions(model, pose, source->thicknesses); !status)
     return status;
+  if (!authored.empty())
+    if (const Status status = author(std::move(character), range, authored, tears, model); !status)
+      return status;
   if (const Status status = apply_to(model, history.subspan(tears.size())); !status) return status;
   return model;
 }

@@ -30,11 +30,13 @@ struct GapingModel {
 };
 
 /// @param history  operations that are valid for the character.
-/// @param pose     in which the tension is chosen.
-/// @return the first failure of an operation.
+/// @param pose     in which the tension is chosen, for uniform tissue.
+/// @param authored  the fields of the tissue that gapes under it; empty: uniform.
+/// @return the first failure of an operation; as validate_authored_tissue().
 [[nodiscard]] Result<GapingModel> make_gaping_model(std::shared_ptr<const Character> character,
                                                     std::span<const Operation> history,
-                                                    const ModelPose& pose);
+                                                    const ModelPose& pose,
+                                                    const AuthoredTissue& authored = {});
 
 /// The lips that the changes by one operation list.
 [[nodiscard]] Wound wound_of(std::span<const ChangeRecord> changes);

@@ -185,13 +185,13 @@ ViewFrame seen_wound(const RenderScene& scene, const ViewFrame& preferred,
 
 Status draw_torn(const LoadedCharacter& loaded, std::span<const Operation> history,
                  const std::filesystem::path& png, const Messages& messages, Budget& budget,
-                 const PosedRobot* robot) {
+                 const PosedRobot* robot, const AuthoredTissue& authored) {
   ProgressBar progress(4);
   progress.begin_step(0, "drawing: tearing soft tissue");
   const Operation& newest = newest_of(history);
   const Result<ModelPose> pose = make_pose(*loaded.character, last_pose_of(newest));
   if (!pose) return pose.error();
-  Result<GapingModel> model = make_gaping_model(loaded.character, history, *pose);
+  Result<GapingModel> model = make_gaping_model(loaded.character, history, *pose, authored);
   if (!model) return model.error();
   CharacterInstance& instance = model->instance;
   const TornModel& torn = *instance.model();

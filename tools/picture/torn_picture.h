@@ -2,6 +2,7 @@
 
 #include <sunder/io/character_file.h>
 #include <sunder/operation/operation.h>
+#include <sunder/particles/authored_tissue.h>
 
 #include <filesystem>
 #include <span>
@@ -21,8 +22,10 @@ namespace sunder::tools {
 /// @param budget    not ended while the file is written.
 /// @param robot     stands beside the model, or null. The picture then shows the wound and what of
 ///                 the robot is near, from the side.
+/// @param authored  the fields of the tissue whose lips gape; empty: uniform.
 [[nodiscard]] Status draw_torn(const LoadedCharacter& loaded, std::span<const Operation> history,
                                const std::filesystem::path& png, const Messages& messages,
-                               Budget& budget, const PosedRobot* robot = nullptr);
+                               Budget& budget, const PosedRobot* robot = nullptr,
+                               const AuthoredTissue& authored = {});
 
 }  // namespace sunder::tools

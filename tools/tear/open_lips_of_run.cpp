@@ -69,11 +69,18 @@ ExitCode check_span(const TearRun& run) {
 
 }  // namespace
 
+ExitCode author_tissue_of_run(TearRun& run) {
+  for (const TissueField& field : run.request.tissue_fields)
+    if (const Status status = add_tissue_field(*run.loaded.character, field, run.tissue); !status)
+      return complain("--tissue-field " + field.text, status, ExitCode::usage);
+  return ExitCode::ok;
+}
+
 ExitCode open_lips_of_run(TearRun& run) {
   if (run.request.open == OpenLips::no) return ExitCode::ok;
   if (const ExitCode code = check_span(run); code != ExitCode::ok) return code;
   const std::vector<Operation> history = value_of(run.model.history());
-  Result<Opening> opening = measure_opening(run.loaded.character, history);
+  Result<Opening> opening = measure_opening(run.loaded.character, history, run.tissue);
   if (!opening)
     return complain(run.request.model.string() + ": --open", opening.error(), ExitCode::usage);
   run.opening = std::move(*opening);

@@ -8,6 +8,10 @@
 
 namespace sunder::tools {
 
+/// With --tissue-field, samples the fields of the tissue.
+/// @return ok, or the exit code of the failure, which was reported.
+[[nodiscard]] ExitCode author_tissue_of_run(TearRun& run);
+
 /// With --open, measures how the lips gape. Warns, as a finding, if nothing does.
 /// @return ok, or the exit code of the failure, which was reported.
 [[nodiscard]] ExitCode open_lips_of_run(TearRun& run);

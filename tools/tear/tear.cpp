@@ -84,8 +84,8 @@ bool draw_picture(const TearRun& run, const std::filesystem::path& png) {
     status = Status::failure(StatusCode::empty_input, kNone,
                              "the log has no operation that could be drawn");
   else
-    status =
-        draw_torn(run.loaded, history, png, run.messages, run.budget, robot ? &*robot : nullptr);
+    status = draw_torn(run.loaded, history, png, run.messages, run.budget,
+                       robot ? &*robot : nullptr, run.tissue);
   if (status) run.messages.say(written(png));
   if (!status) (void)complain(png.string(), status, ExitCode::findings);
   return static_cast<bool>(status);
@@ -297,6 +297,7 @@ ExitCode run_tear(const TearRequest& request) {
     run.pieces.emplace(request.pieces_are_animated ? PieceMotion::animated : PieceMotion::frozen,
                        *request.pieces, ending_of_pieces(request));
   run.has_findings = has_losses(loaded->report);
+  if (const ExitCode code = author_tissue_of_run(run); code != ExitCode::ok) return code;
   if (const ExitCode code = add_robot_tear(run, operations); code != ExitCode::ok) return code;
   add_closings(request, operations);
   if (const ExitCode code = play_operations(operations, run, progress); code != ExitCode::ok)

@@ -41,6 +41,8 @@ std::vector<NamedFile> inputs_of(const TearRequest& request) {
     inputs.push_back({"--robot", request.robot->robot});
     inputs.push_back({"--trajectory", request.robot->trajectory});
   }
+  for (const TissueField& field : request.tissue_fields)
+    if (!field.image.empty()) inputs.push_back({"--tissue-field", field.image});
   if (request.force) inputs.clear();
   return inputs;
 }

@@ -70,6 +70,7 @@ struct TearRun {
   std::optional<DetachedPieces> pieces = {};  ///< With --pieces.
   std::vector<std::string> piece_files = {};  ///< Those that were written.
   std::vector<Operation> played = {};         ///< Those that met the surface, as given.
+  AuthoredTissue tissue = {};                 ///< Of --tissue-field.
   std::optional<Opening> opening = {};        ///< With --open.
   std::optional<RunBlood> blood = {};         ///< With --blood.
   std::optional<RunWounds> wounds = {};       ///< With --wound-mask, if a mesh has room for it.

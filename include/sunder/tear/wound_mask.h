@@ -119,9 +119,9 @@ class SUNDER_API WoundMask {
   /// same distance the newest or deepest one counts. The depth of a lip is the mean of that at its
   /// ends.
   /// @param model  in the state that the mask followed.
-  /// @return invalid_argument: the model has another source, or the mask did not follow it;
-  ///         limit_exceeded: out of memory. O(texture + lips x faces within reach of each + texels
-  ///         of these faces).
+  /// @return invalid_argument: no such channel, the model has another source, or the mask did not
+  ///         follow it; limit_exceeded: out of memory. O(texture + lips x faces within reach of
+  ///         each + texels of these faces).
   [[nodiscard]] Result<std::vector<float>> channel(const TornModel& model,
                                                    WoundChannel wanted) const;
   /// How far the skin within reach of lips is stretched: the largest principal stretch of the torn
