@@ -5,7 +5,7 @@
 #include <numeric>
 #include <span>
 
-#include "core/internal/sort_by_index.h"
+#include "core/internal/index_set.h"
 
 namespace sunder::scene {
 namespace {
@@ -104,17 +104,11 @@ void DrawTriangles::shorten_log() {
   if (log_.size() < next_shortening_) return;
   // The last one of several writes to a place counts. A reader who saw only a part of them is told
   // of all places again.
-  std::vector<TriangleWrite> room;
-  sort_by_index(
-      std::span(log_), [](const TriangleWrite& of) { return of.place; },
-      [&] {
-        room.resize(log_.size());
-        return std::span(room);
-      });
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < log_.size(); ++i)
-    if (i + 1 == log_.size() || log_[i + 1].place != log_[i].place) log_[kept++] = log_[i];
-  log_.resize(kept);
+  IndexSet written(end_);
+  std::size_t first = log_.size();
+  for (std::size_t i = log_.size(); i-- > 0;)
+    if (written.insert(log_[i].place)) log_[--first] = log_[i];
+  log_.erase(log_.begin(), log_.begin() + static_cast<std::ptrdiff_t>(first));
   if (!epochs_.empty()) {
     epochs_.front() = {epochs_.back().epoch, 0};
     epochs_.resize(1);

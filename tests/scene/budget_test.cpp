@@ -26,17 +26,18 @@ std::shared_ptr<const CharacterAsset> soft_ball() {
   return *asset;
 }
 
-/// Four instances, each torn all around.
+/// Instances, each torn all around.
 class TornScene {
  public:
-  TornScene(const std::shared_ptr<const CharacterAsset>& asset, std::uint32_t threads)
+  TornScene(const std::shared_ptr<const CharacterAsset>& asset, std::uint32_t threads,
+            int count = 4)
       : scene_(make(threads)) {
     PlaneCut cut;
     Eigen::AlignedBox3d box;
     for (const Vec3f& at : asset->character()->meshes[0].positions) box.extend(at.cast<double>());
     cut.point = box.center();
     cut.normal = Vec3d(0.1, 1, 0.2);
-    for (int i = 0; i < 4; ++i) {
+    for (int i = 0; i < count; ++i) {
       ids.push_back(*scene_.spawn(asset));
       EXPECT_TRUE(scene_.submit(ids.back(), cut));
     }
@@ -60,6 +61,18 @@ class TornScene {
 std::vector<Vec3f> places(Scene& scene, InstanceId id) {
   const PosedMesh mesh = scene.mesh(id, 0);
   return {mesh.positions.begin(), mesh.positions.end()};
+}
+
+TEST(budget, of_a_new_scene_spreads_the_work_of_many_instances) {
+  const auto asset = soft_ball();
+  for (const int count : {4, 10}) {
+    TornScene torn(asset, 1, count);
+    ASSERT_TRUE(torn.scene().update(kFrame));
+    EXPECT_EQ(torn.scene().stats().settled_points, 2000u) << count;
+    for (int i = 0; i < 200; ++i) ASSERT_TRUE(torn.scene().update(kFrame));
+    for (const InstanceId id : torn.ids)
+      EXPECT_TRUE(torn.scene().find(id)->particles()->is_settled());
+  }
 }
 
 TEST(budget, limits_the_points_of_all_instances_together) {

@@ -142,6 +142,7 @@ TEST(scene, gives_the_bits_of_instances_alone_for_any_number_of_threads) {
       for (int seed = 1; seed <= test::stressed(3, 20); ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed) + (is_soft ? ", soft" : ", rigid"));
         Scene scene = make_scene(threads);
+        scene.set_budget({.settled_points = FrameBudget::kUnlimited});
         std::vector<std::unique_ptr<Twin>> twins;
         for (std::uint64_t i = 0; i < 5; ++i)
           twins.push_back(
