@@ -224,9 +224,7 @@ void SelfContact::find_balls(double thickness, const Contact::World& world, cons
   std::erase_if(ground_, [&](const Ball& ball) {
     return (ball.at.array() < low.array()).any() || (ball.at.array() > high.array()).any();
   });
-  std::sort(ground_.begin(), ground_.end(), [](const Ball& a, const Ball& b) {
-    return a.at.x() != b.at.x() ? a.at.x() < b.at.x() : a.particle < b.particle;
-  });
+  grid_.fill(ground_, 2 * widest_ + thickness);
 }
 
 void SelfContact::touch_skin(double thickness, const Contact::World& world, const Motion& motion) {
@@ -238,18 +236,19 @@ void SelfContact::touch_skin(double thickness, const Contact::World& world, cons
   moved_.resize(motion.count());
   ++search_;
   for (const Ball& mover : movers_) {
-    const double within = mover.reach + widest_ + thickness;
     near_.clear();
-    auto other = std::lower_bound(ground_.begin(), ground_.end(), mover.at.x() - within,
-                                  [](const Ball& ball, double x) { return ball.at.x() < x; });
-    for (; other != ground_.end() && other->at.x() <= mover.at.x() + within; ++other) {
-      const double near = mover.reach + other->reach + thickness;
-      if (is_ground(other->moved_square, mover.moved_square) &&
-          squared_norm(Vec3d(other->at - mover.at)) <= near * near &&
-          squared_norm(Vec3d(motion.displacements[other->particle] -
+    grid_.for_each_near(mover.at, [&](const Ball& other) {
+      const double near = mover.reach + other.reach + thickness;
+      if (squared_norm(Vec3d(other.at - mover.at)) <= near * near &&
+          is_ground(other.moved_square, mover.moved_square) &&
+          squared_norm(Vec3d(motion.displacements[other.particle] -
                              motion.displacements[mover.particle])) >= least * least)
-        near_.push_back({.particle = other->particle});
-    }
+        near_.push_back({.particle = other.particle, .x = other.at.x()});
+    });
+    // Of equally near skin that of the first is touched, whatever the cells.
+    std::sort(near_.begin(), near_.end(), [](const Near& a, const Near& b) {
+      return a.x != b.x ? a.x < b.x : a.particle < b.particle;
+    });
     if (!near_.empty()) touch_particles(thickness, world, motion, mover.particle);
   }
 }

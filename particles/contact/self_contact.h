@@ -2,6 +2,7 @@
 
 #include <sunder/particles/soft_body.h>
 
+#include "particles/contact/ball_grid.h"
 #include "particles/contact/contact.h"
 #include "particles/contact/contact_points.h"
 
@@ -17,15 +18,14 @@ namespace sunder::particles {
 class SelfContact {
  public:
   /// O(1) if nothing is awake or no lip exists; otherwise O(lip points + particles),
-  /// O(particles log particles) if some moved by most of a range, and O(contact points squared) of
-  /// particles near others. Wakes the particles that it pushes.
+  /// and O(contact points squared) of particles near others. Wakes the particles that it pushes.
   /// @throws std::bad_alloc
   void push_apart(const sunder::SelfContact& options, const Contact::World& world, Motion& motion);
   [[nodiscard]] std::size_t memory_bytes() const {
     return pairs_.capacity() * sizeof(LipPoints) + touches_.capacity() * sizeof(Touch) +
            points_.memory_bytes() + normals_.capacity() * sizeof(Normals) +
            moved_.capacity() * sizeof(MovedPoints) +
-           (movers_.capacity() + ground_.capacity()) * sizeof(Ball) +
+           (movers_.capacity() + ground_.capacity()) * sizeof(Ball) + grid_.memory_bytes() +
            near_.capacity() * sizeof(Near);
   }
 
@@ -57,16 +57,10 @@ class SelfContact {
     Eigen::AlignedBox3d box;   ///< Around them.
     std::uint64_t search = 0;  ///< For which they were computed.
   };
-  /// Where a particle is, and how far from there its contact points may be.
-  struct Ball {
-    Vec3d at = Vec3d::Zero();
-    double reach = 0;
-    double moved_square = 0;  ///< Square of its displacement.
-    Index particle = 0;
-  };
   /// A particle whose skin another one may touch.
   struct Near {
     Index particle = 0;
+    double x = 0;  ///< Of its place.
     const MovedPoints* moved = nullptr;
     double disc_square = 0;      ///< Square of the radius of its discs.
     double separate_square = 0;  ///< Points that were nearer at rest do not touch.
@@ -93,7 +87,8 @@ class SelfContact {
   std::vector<MovedPoints> moved_;
   std::uint64_t search_ = 0;  ///< Counts searches for skin.
   std::vector<Ball> movers_;  ///< Particles that moved enough to touch others, ascending.
-  std::vector<Ball> ground_;  ///< Those that any of them may touch, by the x of their places.
+  std::vector<Ball> ground_;  ///< Those that any of them may touch.
+  BallGrid grid_;             ///< Of the ground.
   double widest_ = 0;         ///< Largest reach of all particles.
   std::vector<Near> near_;    ///< Those that the current mover may touch.
 };
