@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 #include "core/internal/ordered.h"
@@ -19,6 +20,9 @@ constexpr double kPointRanges = 0.7, kDiscRanges = 0.35;
 /// Skin that was nearer at rest, in ranges of the decomposition, is not touched: it is next to the
 /// point along the surface. So particles touch that moved apart by a part of this.
 constexpr double kSeparateRanges = 1.5, kMovedRanges = 1.0;
+/// Particles touch only skin that moved less than half as far as they did. So they moved apart by
+/// less than 3/2 of their own displacement, and by less than this part of kMovedRanges touch none.
+constexpr double kMoverPart = 0.66;
 /// RestMotion::size() of a particle whose members the pose does not lengthen.
 const double kUnposedSize = std::sqrt(3.0);
 
@@ -38,6 +42,15 @@ bool is_any_awake(const ParticleInfluences& whom, const Motion& motion) {
   bool is_awake = false;
   for_each_influence(whom, [&](Index p, double) { is_awake |= motion.awake[p] != 0; });
   return is_awake;
+}
+
+/// Whether of two particles the one that moved less can be the ground of the other.
+/// @param moved, by_mover  squares of their displacements.
+bool is_ground(double moved, double by_mover) { return 4 * moved < by_mover; }
+
+/// From the nearest place of a box to a place.
+Vec3d beside(const Eigen::AlignedBox3d& box, const Vec3d& place) {
+  return (box.min() - place).cwiseMax(place - box.max()).cwiseMax(0.0);
 }
 
 }  // namespace
@@ -117,92 +130,126 @@ const SelfContact::Normals& SelfContact::normals_of(const Contact::World& world,
   return normals;
 }
 
-void SelfContact::touch_particles(double thickness, const Contact::World& world,
-                                  const Motion& motion, Index mover,
-                                  std::span<const Index> others) {
+const SelfContact::MovedPoints& SelfContact::moved_points(const Contact::World& world,
+                                                          const Motion& motion, Index particle) {
+  MovedPoints& moved = moved_[particle];
+  if (moved.search == search_) return moved;
   const SurfacePose& pose = world.poses.at(world.model, world.pose, world.rests.epoch());
   const std::span<const ParticleInfluences> influences = world.set.influences();
-  const auto points_of = [&](Index p) -> const ContactPoints::Points& {
-    return points_.of(world.set, world.model, pose, world.rests.epoch(), p);
-  };
-  const ContactPoints::Points& of_mover = points_of(mover);
-  for (Index i = 0; i < of_mover.count; ++i) {
-    const ParticleInfluences& first = influences[of_mover.points[i]];
-    const Vec3d place = of_mover.places[i] + moved_by(first, motion.displacements);
+  moved.points = &points_.of(world.set, world.model, pose, world.rests.epoch(), particle);
+  for (Index i = 0; i < moved.points->count; ++i)
+    moved.at[i] = moved.points->places[i] +
+                  moved_by(influences[moved.points->points[i]], motion.displacements);
+  moved.box.setEmpty();
+  for (Index i = 0; i < moved.points->count; ++i) moved.box.extend(moved.at[i]);
+  moved.search = search_;
+  return moved;
+}
+
+void SelfContact::touch_particles(double thickness, const Contact::World& world,
+                                  const Motion& motion, Index mover) {
+  const std::span<const ParticleInfluences> influences = world.set.influences();
+  for (Near& near : near_) {
+    const double stretch = world.rests.size(near.particle) / kUnposedSize,
+                 disc = kDiscRanges * world.set.range(near.particle) * stretch + thickness,
+                 separate = kSeparateRanges * world.set.report().range * stretch;
+    near.moved = &moved_points(world, motion, near.particle);
+    near.disc_square = disc * disc;
+    near.separate_square = separate * separate;
+  }
+  const MovedPoints& of_mover = moved_points(world, motion, mover);
+  for (Index i = 0; i < of_mover.points->count; ++i) {
+    const Vec3d &rest = of_mover.points->places[i], &place = of_mover.at[i];
     // The nearest place of the skin, relative to the radius of its disc.
-    Index nearest = kNone, of_nearest = kNone;
+    const Near* of_nearest = nullptr;
+    Index nearest = kNone;
     double least = 1;
-    for (const Index other : others) {
-      const ContactPoints::Points& points = points_of(other);
-      const double stretch = world.rests.size(other) / kUnposedSize,
-                   disc = kDiscRanges * world.set.range(other) * stretch + thickness,
-                   separate = kSeparateRanges * world.set.report().range * stretch;
+    for (const Near& near : near_) {
+      const ContactPoints::Points& points = *near.moved->points;
+      // No point of the box is nearer than this, not even by rounding.
+      const double apart = squared_norm(beside(near.moved->box, place));
+      if (apart >= near.disc_square || apart / near.disc_square >= least) continue;
       for (Index k = 0; k < points.count; ++k) {
-        const Vec3d there =
-            points.places[k] + moved_by(influences[points.points[k]], motion.displacements);
-        const double square = squared_norm(Vec3d(place - there)) / (disc * disc);
-        if (square >= least ||
-            squared_norm(Vec3d(of_mover.places[i] - points.places[k])) < separate * separate)
+        const double distance = squared_norm(Vec3d(place - near.moved->at[k]));
+        if (distance >= near.disc_square || distance / near.disc_square >= least ||
+            squared_norm(Vec3d(rest - points.places[k])) < near.separate_square)
           continue;
-        least = square;
+        least = distance / near.disc_square;
         nearest = k;
-        of_nearest = other;
+        of_nearest = &near;
       }
     }
-    if (nearest == kNone) continue;
-    const ContactPoints::Points& points = points_of(of_nearest);
-    const Vec3d& normal = normals_of(world, points, of_nearest).at[nearest];
+    if (of_nearest == nullptr) continue;
+    const ContactPoints::Points& points = *of_nearest->moved->points;
+    const Vec3d& normal = normals_of(world, points, of_nearest->particle).at[nearest];
     if (normal.isZero(0)) continue;
-    const ParticleInfluences& second = influences[points.points[nearest]];
+    const ParticleInfluences &first = influences[of_mover.points->points[i]],
+                             &second = influences[points.points[nearest]];
     touches_.push_back({second, first, normal,
-                        dot(Vec3d(of_mover.places[i] - points.places[nearest]), normal) - thickness,
+                        dot(Vec3d(rest - points.places[nearest]), normal) - thickness,
                         squares_of(first) + squares_of(second),
-                        kContactDepthRanges * world.set.range(of_nearest)});
+                        kContactDepthRanges * world.set.range(of_nearest->particle)});
   }
 }
 
-void SelfContact::touch_skin(double thickness, const Contact::World& world, const Motion& motion) {
-  const Index count = motion.count();
+void SelfContact::find_balls(double thickness, const Contact::World& world, const Motion& motion) {
+  movers_.clear();
+  ground_.clear();
   const double least = kMovedRanges * world.set.report().range;
-  const auto has_moved = [&](Index p) {
-    return squared_norm(motion.displacements[p]) > 0.25 * least * least;
-  };
-  const auto place = [&](Index p) { return Vec3d(world.rests.place(p) + motion.displacements[p]); };
-  const auto reach = [&](Index p) {
-    return kPointRanges / kUnposedSize * world.rests.size(p) * world.set.range(p);
-  };
-  order_.clear();
-  double widest = 0;
-  bool has_movers = false;
-  for (Index p = 0; p < count; ++p) {
-    order_.push_back(p);
-    widest = std::max(widest, reach(p));
-    has_movers |= motion.awake[p] != 0 && has_moved(p);
+  double farthest = 0;
+  for (Index p = 0; p < motion.count(); ++p) {
+    const double square = squared_norm(motion.displacements[p]);
+    if (motion.awake[p] == 0 || !(square > kMoverPart * kMoverPart * least * least)) continue;
+    movers_.push_back({.moved_square = square, .particle = p});
+    farthest = std::max(farthest, square);
   }
-  if (!has_movers) return;
-  points_.follow(count);
-  normals_.resize(count);
-  std::sort(order_.begin(), order_.end(), [&](Index a, Index b) {
-    const double x = place(a).x(), y = place(b).x();
-    return x != y ? x < y : a < b;
+  if (movers_.empty()) return;
+  widest_ = 0;
+  for (Index p = 0; p < motion.count(); ++p) {
+    const double reach = kPointRanges / kUnposedSize * world.rests.size(p) * world.set.range(p);
+    widest_ = std::max(widest_, reach);
+    const double square = squared_norm(motion.displacements[p]);
+    if (is_ground(square, farthest))
+      ground_.push_back({Vec3d(world.rests.place(p) + motion.displacements[p]), reach, square, p});
+  }
+  Vec3d low = Vec3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (Ball& ball : movers_) {
+    const Index p = ball.particle;
+    ball.at = world.rests.place(p) + motion.displacements[p];
+    ball.reach = kPointRanges / kUnposedSize * world.rests.size(p) * world.set.range(p);
+    const Vec3d within = Vec3d::Constant(ball.reach + widest_ + thickness);
+    low = low.cwiseMin(ball.at - within);
+    high = high.cwiseMax(ball.at + within);
+  }
+  std::erase_if(ground_, [&](const Ball& ball) {
+    return (ball.at.array() < low.array()).any() || (ball.at.array() > high.array()).any();
   });
-  for (Index mover = 0; mover < count; ++mover) {
-    if (motion.awake[mover] == 0 || !has_moved(mover)) continue;
-    const Vec3d at = place(mover);
-    const double within = reach(mover) + widest + thickness;
+  grid_.fill(ground_, 2 * widest_ + thickness);
+}
+
+void SelfContact::touch_skin(double thickness, const Contact::World& world, const Motion& motion) {
+  find_balls(thickness, world, motion);
+  if (ground_.empty()) return;
+  const double least = kMovedRanges * world.set.report().range;
+  points_.follow(motion.count());
+  normals_.resize(motion.count());
+  moved_.resize(motion.count());
+  ++search_;
+  for (const Ball& mover : movers_) {
     near_.clear();
-    auto other = std::lower_bound(order_.begin(), order_.end(), at.x() - within,
-                                  [&](Index p, double x) { return place(p).x() < x; });
-    for (; other != order_.end() && place(*other).x() <= at.x() + within; ++other) {
-      const double near = reach(mover) + reach(*other) + thickness;
-      if (*other == mover || squared_norm(Vec3d(place(*other) - at)) > near * near) continue;
-      // Of the two, the one that moved less is the ground.
-      const Vec3d apart = motion.displacements[*other] - motion.displacements[mover];
-      if (squared_norm(apart) >= least * least && 4 * squared_norm(motion.displacements[*other]) <
-                                                      squared_norm(motion.displacements[mover]))
-        near_.push_back(*other);
-    }
-    if (!near_.empty()) touch_particles(thickness, world, motion, mover, near_);
+    grid_.for_each_near(mover.at, [&](const Ball& other) {
+      const double near = mover.reach + other.reach + thickness;
+      if (squared_norm(Vec3d(other.at - mover.at)) <= near * near &&
+          is_ground(other.moved_square, mover.moved_square) &&
+          squared_norm(Vec3d(motion.displacements[other.particle] -
+                             motion.displacements[mover.particle])) >= least * least)
+        near_.push_back({.particle = other.particle, .x = other.at.x()});
+    });
+    // Of equally near skin that of the first is touched, whatever the cells.
+    std::sort(near_.begin(), near_.end(), [](const Near& a, const Near& b) {
+      return a.x != b.x ? a.x < b.x : a.particle < b.particle;
+    });
+    if (!near_.empty()) touch_particles(thickness, world, motion, mover.particle);
   }
 }
 

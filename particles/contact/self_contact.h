@@ -2,6 +2,7 @@
 
 #include <sunder/particles/soft_body.h>
 
+#include "particles/contact/ball_grid.h"
 #include "particles/contact/contact.h"
 #include "particles/contact/contact_points.h"
 
@@ -16,14 +17,16 @@ namespace sunder::particles {
 /// comes near, but that were not near it at rest; each stands for a disc in its tangent plane.
 class SelfContact {
  public:
-  /// O(1) if nothing is awake or no lip exists; otherwise O(lip points + particles log particles),
-  /// and O(contact points) of particles near others. Wakes the particles that it pushes.
+  /// O(1) if nothing is awake or no lip exists; otherwise O(lip points + particles),
+  /// and O(contact points squared) of particles near others. Wakes the particles that it pushes.
   /// @throws std::bad_alloc
   void push_apart(const sunder::SelfContact& options, const Contact::World& world, Motion& motion);
   [[nodiscard]] std::size_t memory_bytes() const {
     return pairs_.capacity() * sizeof(LipPoints) + touches_.capacity() * sizeof(Touch) +
            points_.memory_bytes() + normals_.capacity() * sizeof(Normals) +
-           (order_.capacity() + near_.capacity()) * sizeof(Index);
+           moved_.capacity() * sizeof(MovedPoints) +
+           (movers_.capacity() + ground_.capacity()) * sizeof(Ball) + grid_.memory_bytes() +
+           near_.capacity() * sizeof(Near);
   }
 
  private:
@@ -47,12 +50,30 @@ class SelfContact {
     std::array<Vec3d, ContactPoints::kMost> at;
     std::uint64_t revision = 0, epoch = 0;
   };
+  /// The displaced contact points of a particle.
+  struct MovedPoints {
+    const ContactPoints::Points* points = nullptr;
+    std::array<Vec3d, ContactPoints::kMost> at;
+    Eigen::AlignedBox3d box;   ///< Around them.
+    std::uint64_t search = 0;  ///< For which they were computed.
+  };
+  /// A particle whose skin another one may touch.
+  struct Near {
+    Index particle = 0;
+    double x = 0;  ///< Of its place.
+    const MovedPoints* moved = nullptr;
+    double disc_square = 0;      ///< Square of the radius of its discs.
+    double separate_square = 0;  ///< Points that were nearer at rest do not touch.
+  };
 
   void find_lips(const Contact::World& world);
   void touch_lips(double thickness, const Contact::World& world, const Motion& motion);
   void touch_skin(double thickness, const Contact::World& world, const Motion& motion);
+  void find_balls(double thickness, const Contact::World& world, const Motion& motion);
   void touch_particles(double thickness, const Contact::World& world, const Motion& motion,
-                       Index mover, std::span<const Index> others);
+                       Index mover);
+  const MovedPoints& moved_points(const Contact::World& world, const Motion& motion,
+                                  Index particle);
   const Normals& normals_of(const Contact::World& world, const ContactPoints::Points& points,
                             Index particle);
   double push_once(double friction, Motion& motion);
@@ -63,8 +84,13 @@ class SelfContact {
   std::vector<Touch> touches_;
   ContactPoints points_;
   std::vector<Normals> normals_;
-  std::vector<Index> order_;  ///< Particles by the x of their places.
-  std::vector<Index> near_;   ///< Those whose skin a particle may touch.
+  std::vector<MovedPoints> moved_;
+  std::uint64_t search_ = 0;  ///< Counts searches for skin.
+  std::vector<Ball> movers_;  ///< Particles that moved enough to touch others, ascending.
+  std::vector<Ball> ground_;  ///< Those that any of them may touch.
+  BallGrid grid_;             ///< Of the ground.
+  double widest_ = 0;         ///< Largest reach of all particles.
+  std::vector<Near> near_;    ///< Those that the current mover may touch.
 };
 
 }  // namespace sunder::particles

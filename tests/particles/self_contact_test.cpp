@@ -86,20 +86,27 @@ TEST(self_contact, open_lips_change_no_bit) {
       std::ranges::equal(without.scene.body->displacements(), with.scene.body->displacements()));
 }
 
-/// A flap of a sheet that is folded to the right and pressed down on the skin there.
+/// A flap of a sheet that is folded along an axis and pressed down on the skin there.
 struct FoldedFlap {
   SoftScene scene;
+  int axis = 0;  ///< 0: to the right; 1: up.
   Index end = 0;
 
-  explicit FoldedFlap(const SoftBodyOptions& options)
-      : scene(test::make_sheet(60), flap_material(), 0.07, options) {
-    const Stroke stroke = {test::down_at(0.5, 0.4), test::down_at(0.2, 0.4),
-                           test::down_at(0.2, 0.6), test::down_at(0.5, 0.6)};
+  explicit FoldedFlap(const SoftBodyOptions& options, int along = 0)
+      : scene(test::make_sheet(60), flap_material(), 0.07, options), axis(along) {
+    Stroke stroke;
+    for (const Vec3d& at :
+         {Vec3d(0.5, 0.4, 0), Vec3d(0.2, 0.4, 0), Vec3d(0.2, 0.6, 0), Vec3d(0.5, 0.6, 0)})
+      stroke.push_back(test::down_at(turned(at).x(), turned(at).y()));
     ChangeRecord change;
     EXPECT_TRUE(scene.model->tear(scene.pose, stroke, {}, &change));
     EXPECT_TRUE(scene.set->follow(*scene.model, {&change, 1}));
     scene.step(1.0 / 60);
-    end = scene.nearest({0.25, 0.5, 0});
+    end = scene.nearest(turned({0.25, 0.5, 0}));
+  }
+  /// A place for a fold to the right, for a fold along the axis.
+  [[nodiscard]] Vec3d turned(const Vec3d& at) const {
+    return axis == 0 ? at : Vec3d(at.y(), at.x(), at.z());
   }
   static SoftMaterial flap_material() {
     SoftMaterial material;
@@ -109,10 +116,10 @@ struct FoldedFlap {
     return material;
   }
   void fold() {
-    const HoldId hold = *scene.body->hold(end, {0.25, 0.5, 0.0}, {});
+    const HoldId hold = *scene.body->hold(end, turned({0.25, 0.5, 0.0}), {});
     const auto lead = [&](const Vec3d& from, const Vec3d& to) {
       for (int i = 1; i <= 60; ++i) {
-        EXPECT_TRUE(scene.body->move_hold(hold, from + (to - from) * i / 60));
+        EXPECT_TRUE(scene.body->move_hold(hold, turned(from + (to - from) * i / 60)));
         scene.step(1.0 / 60);
       }
     };
@@ -130,7 +137,7 @@ struct FoldedFlap {
       double skin = 0, nearest = 1;
       for (Index other = 0; other < scene.set->point_count(); ++other) {
         const Vec3f& rest = scene.set->positions()[other];
-        if (rest.x() < 0.6f) continue;
+        if (rest[axis] < 0.6f) continue;
         const Vec3d there = rest.cast<double>() + scene.body->point_displacement(other);
         const double distance = (there - at).head<2>().norm();
         if (distance < nearest) {
@@ -145,10 +152,12 @@ struct FoldedFlap {
 };
 
 TEST(self_contact, a_flap_stays_above_the_skin) {
-  FoldedFlap without(touching(0)), with(touching(0.01));
-  for (FoldedFlap* flap : {&without, &with}) flap->fold();
-  EXPECT_LT(without.least_height(), -0.02);
-  EXPECT_GT(with.least_height(), 0);
+  for (const int axis : {0, 1}) {
+    FoldedFlap without(touching(0), axis), with(touching(0.01), axis);
+    for (FoldedFlap* flap : {&without, &with}) flap->fold();
+    EXPECT_LT(without.least_height(), -0.02);
+    EXPECT_GT(with.least_height(), 0);
+  }
 }
 
 TEST(self_contact, faults_are_named) {
