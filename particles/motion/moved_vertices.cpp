@@ -8,8 +8,8 @@
 namespace sunder::particles {
 namespace {
 
-/// What it costs to look at a member of a particle that changed, whose vertices change too, and at a
-/// point of the journal, of which few do, in points that are read in order.
+/// What it costs to look at a member of a particle that changed, whose vertices change too, and at
+/// a point of the journal, of which few do, in points that are read in order.
 constexpr std::size_t kCostOfMember = 7, kCostOfEntry = 3;
 
 }  // namespace
@@ -108,9 +108,9 @@ std::span<const IndexRange> MovedVertices::of(const Structure& structure, const 
     const std::size_t members = list_changed_particles(structure, is_displaced);
     resize(structure);
     if (is_known)
-      is_known = kCostOfMember * members +
-                     kCostOfEntry * journal.points.since(points_read_).size() <
-                 structure.points.count();
+      is_known =
+          kCostOfMember * members + kCostOfEntry * journal.points.since(points_read_).size() <
+          structure.points.count();
     if (is_known)
       renew_changed(structure, model);
     else
