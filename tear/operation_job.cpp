@@ -24,7 +24,7 @@ struct OperationTask {
   Operation operation;
   std::optional<DetachOptions> detach;  ///< Of a detachment whose piece is wanted.
   OperationJob::Observer observer;
-  std::optional<TornModel> replica;  ///< With the operation on its redo stack, once it is done.
+  std::optional<TornModel> replica;   ///< With the operation on its redo stack, once it is done.
   std::vector<ChangeRecord> changes;  ///< What it did to the replica.
   TearReport report;
   std::shared_ptr<const DetachedPiece> piece;
