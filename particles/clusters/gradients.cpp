@@ -16,31 +16,17 @@ namespace {
 /// plane; there the gradient is the one whose parts in these planes agree best with the faces'.
 class FaceGradients {
  public:
-  /// The sums of the particles of one corner, which its faces share.
-  struct Corner {
-    std::array<std::uint8_t, 4> sums;
-    std::array<double, 4> weights;
-    std::size_t count;
-  };
-
   void add_face(const Vec3d& normal, double area) {
     area_ += area;
     normals_ += area * normal;
     if (face_count_ == kFacesAtOnce) add_planes();
     faces_[face_count_++] = {normal, area};
   }
-  void find(const ParticleInfluences& influences, Corner& corner) {
-    corner.count = 0;
-    for (std::size_t i = 0; i < 4 && influences.weights[i] > 0; ++i) {
-      corner.sums[i] = sum_of(influences.particles[i]);
-      corner.weights[i] = static_cast<double>(influences.weights[i]);
-      ++corner.count;
-    }
-  }
-  /// The part of a corner of a face: its weights times a vector.
-  void add(const Corner& corner, const Vec3d& per_weight) {
+  /// What the faces around a point have of it: its weights times a vector.
+  void add_point(const ParticleInfluences& influences, const Vec3d& per_weight) {
     const Vec4d by(per_weight.x(), per_weight.y(), per_weight.z(), 0);
-    for (std::size_t i = 0; i < corner.count; ++i) sums_[corner.sums[i]] += corner.weights[i] * by;
+    for (std::size_t i = 0; i < 4 && influences.weights[i] > 0; ++i)
+      sums_[sum_of(influences.particles[i])] += static_cast<double>(influences.weights[i]) * by;
   }
 
   /// Of the four particles whose weights change most.
@@ -155,9 +141,9 @@ class FaceGradients {
 /// The other end of an edge of the point.
 struct Neighbour {
   Index point = kNone;
-  bool is_found = false;  ///< Whether a face needed its sums.
   Vec3d edge;
-  FaceGradients::Corner corner;
+  Vec3d per_weight;        ///< Summed over the faces beside the edge.
+  bool is_needed = false;  ///< Whether one of them has an area.
 };
 
 ParticleGradients gradients_at(const Surface& surface, const Structure& structure, Index point) {
@@ -165,17 +151,12 @@ ParticleGradients gradients_at(const Surface& surface, const Structure& structur
   const std::vector<ParticleInfluences>& influences = structure.points.influences;
   const Vec3d at = structure.points.positions[point].cast<double>();
   FaceGradients faces;
+  Vec3d own = Vec3d::Zero();
   const auto go_to = [&](Index of, Neighbour& neighbour) {
-    neighbour.point = of;
-    neighbour.is_found = false;
-    neighbour.edge = structure.points.positions[of].cast<double>() - at;
+    if (neighbour.is_needed) faces.add_point(influences[neighbour.point], neighbour.per_weight);
+    neighbour = {of, structure.points.positions[of].cast<double>() - at, Vec3d::Zero(), false};
   };
-  const auto find = [&](Neighbour& neighbour) {
-    if (!neighbour.is_found) faces.find(influences[neighbour.point], neighbour.corner);
-    neighbour.is_found = true;
-  };
-  Neighbour own, one, other;
-  go_to(point, own);
+  Neighbour one, other;
   Neighbour *b = &one, *c = &other;
   surface.for_each_in_fan(surface.point_corner[point], [&](Index corner) {
     // The last point of a face is the first one of the next.
@@ -188,12 +169,16 @@ ParticleGradients gradients_at(const Surface& surface, const Structure& structur
     if (!(length > 0)) return;
     const Vec3d normal = twice / length;
     faces.add_face(normal, length);
-    for (Neighbour* const of : {&own, b, c}) find(*of);
     // normal x (rise_c to_b - rise_b to_c), times twice the area, corner by corner.
-    faces.add(own.corner, normal.cross(c->edge - b->edge));
-    faces.add(b->corner, -normal.cross(c->edge));
-    faces.add(c->corner, normal.cross(b->edge));
+    const Vec3d by_c = normal.cross(b->edge), by_b = normal.cross(c->edge);
+    own += by_b - by_c;
+    b->per_weight -= by_b;
+    c->per_weight += by_c;
+    b->is_needed = c->is_needed = true;
   });
+  for (const Neighbour* const last : {b, c})
+    if (last->is_needed) faces.add_point(influences[last->point], last->per_weight);
+  faces.add_point(influences[point], own);
   return faces.means(influences[point]);
 }
 
@@ -228,9 +213,12 @@ void Gradients::forget(const Surface& surface, std::span<const Index> points, Ch
     if (point >= surface.point_count()) continue;
     forget(point, change);
     if (surface.point_corner[point] == kNone) continue;
+    Index last = kNone;  // of a face, which is the first of the next one
     surface.for_each_in_fan(surface.point_corner[point], [&](Index corner) {
-      forget(surface.corner_point[Surface::next(corner)], change);
-      forget(surface.corner_point[Surface::previous(corner)], change);
+      const Index first = surface.corner_point[Surface::next(corner)];
+      if (first != last) forget(first, change);
+      last = surface.corner_point[Surface::previous(corner)];
+      forget(last, change);
     });
   }
 }

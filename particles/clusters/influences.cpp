@@ -13,6 +13,7 @@ ParticleInfluences influences_from(std::span<const ParticleMembership> membershi
     std::uint64_t key = std::uint64_t{std::bit_cast<std::uint32_t>(falloff(membership.reach))}
                             << 32u |
                         ~membership.particle;
+    if (key <= fifth) continue;  // of many memberships most
     for (std::uint64_t* const of : {&first, &second, &third, &fourth, &fifth}) {
       const std::uint64_t change =
           (*of ^ key) & (std::uint64_t{0} - static_cast<std::uint64_t>(key > *of));
