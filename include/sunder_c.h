@@ -854,21 +854,23 @@ typedef uint32_t
 typedef struct sunder_result {
   sunder_command command;
   sunder_instance instance;
-  const char* error;    /* empty if it succeeded */
-  sunder_status status; /* a command that failed changed nothing */
-  uint32_t error_index; /* SUNDER_NONE: none */
-  uint32_t runs;        /* of torn surface; 0: it missed */
+  const char* error;        /* empty if it succeeded */
+  sunder_status status;     /* a command that failed changed nothing */
+  uint32_t error_index;     /* SUNDER_NONE: none */
+  uint32_t runs;            /* of torn surface; 0: it missed */
+  uint32_t segments_missed; /* of the stroke, by the blade's reach */
   uint32_t faces_crossed;
   uint32_t vertices_added;
   uint32_t triangles_added;
   uint32_t triangles_retired;
   uint32_t blocked; /* places where the surface could not be torn */
   uint32_t caps;
-  uint32_t open_sections;    /* rims that got no cap or wall */
-  uint32_t separated_pieces; /* parts that hang together with nothing else now */
-  uint32_t has_piece;        /* 1: sunder_take_piece() */
-  double length;             /* of the tear on the posed surface */
-  double area_removed;       /* by a gap or bore */
+  uint32_t open_sections;      /* rims that got no cap or wall */
+  uint32_t separated_pieces;   /* parts that hang together with nothing else now */
+  uint32_t has_piece;          /* 1: sunder_take_piece() */
+  uint32_t advises_background; /* 1: it took long; use SUNDER_IN_BACKGROUND for one like it */
+  double length;               /* of the tear on the posed surface */
+  double area_removed;         /* by a gap or bore */
 } sunder_result;
 
 /* A view, valid until the next update. Ascending by command. */

@@ -26,8 +26,8 @@ constexpr Part kParts[] = {{"untorn", 20, kStroke - 20},
                            {"stroke begins", kStroke, 1},
                            {"stroke", kStroke + 1, kStrokeFrames - 1},
                            {"lips open", kStroke + kStrokeFrames, 200},
-                           {"gap", kGap, 1},
-                           {"after it", kGap + 1, 150},
+                           {"gap", kGap, kSwapped + 1},
+                           {"after it", kGap + kSwapped + 1, 100},
                            {"cut", kCut, kSwapped + 1},
                            {"after it", kCut + kSwapped + 1, 100},
                            {"detach", kDetach, kSwapped + 1},
@@ -53,7 +53,7 @@ void act(EngineInstance& engine, int frame, bool in_background) {
       engine.submit(ExtendStrokeCommand{engine_stroke_at(way), 10 * way});
     if (way == 1) engine.submit(EndStrokeCommand{});
   }
-  if (frame == kGap) engine.submit(TearCommand{engine_gap(20), walled(0.01)});
+  if (frame == kGap) engine.submit(TearCommand{engine_gap(20), walled(0.01)}, in_background);
   if (frame == kCut) engine.submit(engine_cut(), in_background);
   if (frame == kDetach) engine.submit(DetachCommand{kEnginePiece, {}}, in_background);
   if (frame == kDrill) engine.submit(engine_bore(), in_background);

@@ -17,6 +17,7 @@ sunder_result result_of(const CommandResult& from) {
   to.status = static_cast<sunder_status>(from.status.code());
   to.error_index = from.status.index();
   to.runs = report.runs;
+  to.segments_missed = report.segments_missed;
   to.faces_crossed = report.faces_crossed;
   to.vertices_added = report.vertices_added;
   to.triangles_added = report.triangles_added;
@@ -28,6 +29,7 @@ sunder_result result_of(const CommandResult& from) {
       std::count_if(report.pieces.begin(), report.pieces.end(),
                     [](const TornPiece& piece) { return !piece.is_body; }));
   to.has_piece = from.piece != nullptr ? 1 : 0;
+  to.advises_background = from.advises_background ? 1 : 0;
   to.length = report.length_posed;
   to.area_removed = report.area_removed_posed;
   return to;

@@ -16,6 +16,11 @@ bool is_of_stroke(const SceneCommand& command) {
          std::holds_alternative<CancelStrokeCommand>(command);
 }
 
+bool may_run_in_background(const SceneCommand& command) {
+  return !is_of_stroke(command) && !std::holds_alternative<UndoCommand>(command) &&
+         !std::holds_alternative<RedoCommand>(command);
+}
+
 /// Lets the background run a job, and what follows it.
 template <class Job, class Next>
 std::shared_ptr<OnceJob> begin(const Job& job, Background& background, Next next) {
@@ -34,6 +39,13 @@ std::shared_ptr<const CharacterAsset> asset_of(const DetachedPiece* piece,
   options.coarser = nullptr;
   const auto asset = CharacterAsset::create(piece->character, options);
   return asset ? *asset : nullptr;
+}
+
+/// @param report  of a command that ran in the frame.
+bool advises_background(const SceneCommand& command, const TearReport& report) {
+  return may_run_in_background(command) &&
+         std::uint64_t{report.vertices_added} + report.triangles_added + report.triangles_retired >
+             kElementsOfFrame;
 }
 
 Result<TearReport> report_of(Result<WeightReport> weights) {
@@ -128,7 +140,9 @@ void ActorCommands::apply(const ModelPose& pose, CharacterInstance& instance,
     DetachedParts detached;
     conclude(queued, apply_command(queued.command, pose, instance,
                                    queued.options.wants_changes ? &changes : nullptr, detached));
-    results_.back().changes = std::move(changes);
+    CommandResult& result = results_.back();
+    result.advises_background = advises_background(queued.command, result.report);
+    result.changes = std::move(changes);
     give(std::move(detached));
   }
   waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(next));

@@ -194,6 +194,37 @@ TEST(background, a_piece_that_does_not_exist_is_a_failure) {
   EXPECT_EQ(scene.find(id)->model()->undo_count(), 0u);
 }
 
+TEST(background, is_advised_for_commands_that_change_much_in_a_frame) {
+  const auto asset = value_of(CharacterAsset::create(
+      std::make_shared<const Character>(test::make_tube(120, 150, 5)), CharacterAssetOptions{}));
+  const DetachCommand end = {PieceNear{Vec3d(0, 6, 0), {}}, {}};
+  struct Case {
+    const char* name;
+    SceneCommand command;
+    CommandOptions options;
+    bool is_advised;
+  };
+  const Case cases[] = {
+      {"a cut with caps", capped_cut(2.2), {}, true},
+      {"the same in the background", capped_cut(1.7), {.in_background = true}, false},
+      {"a bore that misses", Bore{Vec3d(50, 0, 0), Vec3d(0, 0, 1), 0.1, 1.0, {}}, {}, false},
+      {"a small bore", Bore{Vec3d(0, 3.1, 5), Vec3d(0, 0, -1), 0.05, 5.0, {}}, {}, false},
+      {"a piece", end, {}, true},
+      {"undo of it", UndoCommand{}, {}, false}};
+  Scene scene = make_scene({}, 1);
+  const InstanceId id = spawn(scene, asset);
+  for (const Case& of : cases) {
+    SCOPED_TRACE(of.name);
+    ASSERT_TRUE(scene.submit(id, of.command, of.options));
+    do {
+      ASSERT_TRUE(scene.update(kFrame));
+    } while (scene.results().empty());
+    const CommandResult& result = scene.results()[0];
+    ASSERT_TRUE(result.status) << result.status.text();
+    EXPECT_EQ(result.advises_background, of.is_advised);
+  }
+}
+
 TEST(background, strokes_do_not_wait) {
   HeldBackground background;
   const auto asset = soft_tube();

@@ -66,6 +66,8 @@ namespace Sunder
     public uint? ErrorIndex { get { return raw.ErrorIndex == Constants.None ? (uint?)null : raw.ErrorIndex; } }
     /// <summary>Of torn surface; 0: it missed.</summary>
     public int Runs { get { return (int)raw.Runs; } }
+    /// <summary>Segments of the stroke that met no surface within the blade's reach.</summary>
+    public int SegmentsMissed { get { return (int)raw.SegmentsMissed; } }
     public int FacesCrossed { get { return (int)raw.FacesCrossed; } }
     public int VerticesAdded { get { return (int)raw.VerticesAdded; } }
     public int TrianglesAdded { get { return (int)raw.TrianglesAdded; } }

@@ -34,6 +34,7 @@ export class Result {
     this.error = raw.status === 0 ? null : new SunderError(calls.sunder_status_name(raw.status), raw.status,
       raw.error_index === 0xFFFFFFFF ? null : raw.error_index, memory.text(raw.error));
     this.runs = raw.runs;
+    this.segmentsMissed = raw.segments_missed;
     this.facesCrossed = raw.faces_crossed;
     this.verticesAdded = raw.vertices_added;
     this.trianglesAdded = raw.triangles_added;

@@ -195,7 +195,7 @@ export interface DetachOptions {
 /** What came of a command. */
 export interface Result {
   readonly command: bigint; readonly instance: Instance | null; readonly error: SunderError | null;
-  readonly runs: number; readonly facesCrossed: number; readonly verticesAdded: number; readonly trianglesAdded: number;
+  readonly runs: number; readonly segmentsMissed: number; readonly facesCrossed: number; readonly verticesAdded: number; readonly trianglesAdded: number;
   readonly trianglesRetired: number; readonly blocked: number; readonly caps: number; readonly openSections: number;
   readonly separatedPieces: number; readonly length: number; readonly areaRemoved: number;
   readonly piece: Piece | null;

@@ -80,7 +80,14 @@ struct CommandResult {
   /// instance's, without coarser levels. Null without enough memory for it.
   std::shared_ptr<const CharacterAsset> asset;
   std::vector<ChangeRecord> changes;  ///< If CommandOptions::wants_changes.
+  /// Whether a command like this one should set CommandOptions::in_background: it ran in the frame
+  /// and added or retired more than kElementsOfFrame vertices and triangles.
+  bool advises_background = false;
 };
+
+/// Vertices and triangles that a command may add and retire in a frame of 90 Hz beside the rest of
+/// its work: about two milliseconds of a soft instance. docs/frame.md.
+inline constexpr std::uint32_t kElementsOfFrame = 1000;
 
 struct CommandOptions {
   bool wants_changes = false;  ///< Whether the result lists the changes, for engines that mirror

@@ -38,8 +38,10 @@ def _with_policy(options):
 
 @dataclass(frozen=True)
 class Result:
-    """What an operation did. `runs` of torn surface: 0 if the blade missed."""
+    """What an operation did. `runs` of torn surface: 0 if the blade missed. `advises_background`: it took long; use
+    in_background for one like it."""
     runs: int
+    segments_missed: int
     faces_crossed: int
     vertices_added: int
     triangles_added: int
@@ -51,6 +53,7 @@ class Result:
     length: float
     area_removed: float
     piece: Optional[Piece]
+    advises_background: bool
 
 
 class Command:
@@ -553,8 +556,9 @@ class Scene:
                                          raw.error_index)
             return
         piece = Piece(abi.output('take_piece', self._handle, raw.command)) if raw.has_piece else None
-        command._result = Result(raw.runs, raw.faces_crossed, raw.vertices_added, raw.triangles_added, raw.triangles_retired,
-                                 raw.blocked, raw.caps, raw.open_sections, raw.separated_pieces, raw.length, raw.area_removed, piece)
+        command._result = Result(raw.runs, raw.segments_missed, raw.faces_crossed, raw.vertices_added, raw.triangles_added, raw.triangles_retired,
+                                 raw.blocked, raw.caps, raw.open_sections, raw.separated_pieces, raw.length, raw.area_removed, piece,
+                                 bool(raw.advises_background))
 
     @property
     def stats(self) -> dict:
