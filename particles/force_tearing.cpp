@@ -228,7 +228,7 @@ Result<ForceTearingReport> tear_overstretched(const SoftBody& body, ParticleSet&
     auto overstretched = particles::find_overstretched(tissue, length, report.greatest_stretch);
     if (body.awake_count() == 0 || !particles::can_tear(body)) return report;
     if (const Status valid = particles.rest(pose, {}, {}); !valid) return valid;
-    const auto tips = particles.tips(model);
+    const auto tips = find_tips(particles, model);
     if (!tips) return tips.error();
     particles::Starts starts(tissue, std::move(overstretched), *tips, length,
                              report.greatest_release);

@@ -73,25 +73,25 @@ Result<ParticleSet> ParticleSet::create(std::shared_ptr<const ParticleAsset> ass
   }
 }
 
-const DecompositionReport& ParticleSet::report() const { return data_->now().report; }
+const DecompositionReport& ParticleSet::report() const { return data_->without_points().report; }
 std::uint32_t ParticleSet::particle_count() const {
-  return static_cast<Index>(data_->now().particles.size());
+  return static_cast<Index>(data_->without_points().particles.size());
 }
 std::uint64_t ParticleSet::serial(std::uint32_t particle) const {
   SUNDER_ASSERT(particle < particle_count());
-  return data_->now().particles[particle].serial;
+  return data_->without_points().particles[particle].serial;
 }
 std::uint32_t ParticleSet::seed(std::uint32_t particle) const {
   SUNDER_ASSERT(particle < particle_count());
-  return data_->now().particles[particle].seed;
+  return data_->without_points().particles[particle].seed;
 }
 double ParticleSet::range(std::uint32_t particle) const {
   SUNDER_ASSERT(particle < particle_count());
-  return double{data_->now().particles[particle].range};
+  return double{data_->without_points().particles[particle].range};
 }
 std::uint32_t ParticleSet::member_count(std::uint32_t particle) const {
   SUNDER_ASSERT(particle < particle_count());
-  return data_->now().particles[particle].member_count;
+  return data_->without_points().particles[particle].member_count;
 }
 
 Result<std::vector<std::uint32_t>> ParticleSet::members(std::uint32_t particle) const {
@@ -107,27 +107,35 @@ Result<std::vector<std::uint32_t>> ParticleSet::members(std::uint32_t particle) 
 
 std::span<const ParticleNeighbour> ParticleSet::neighbours(std::uint32_t particle) const {
   SUNDER_ASSERT(particle < particle_count());
-  return data_->now().particles[particle].neighbours;
+  return data_->without_points().particles[particle].neighbours;
 }
 
 double ParticleSet::area(std::uint32_t particle) const {
   SUNDER_ASSERT(particle < particle_count());
-  return data_->now().particles[particle].area;
+  return data_->without_points().particles[particle].area;
 }
 
 const ParticleInfluences& ParticleSet::parents(std::uint32_t particle) const {
   SUNDER_ASSERT(particle < particle_count());
-  return data_->now().particles[particle].parents;
+  return data_->without_points().particles[particle].parents;
 }
-std::uint32_t ParticleSet::point_count() const { return data_->now().points.count(); }
+std::uint32_t ParticleSet::point_count() const { return data_->point_count(); }
 std::span<const ParticleMembership> ParticleSet::memberships(std::uint32_t point) const {
   SUNDER_ASSERT(point < point_count());
-  return data_->now().points.memberships_of(point);
+  const Structure* const structure = data_->find();
+  if (structure == nullptr) return {};
+  return structure->points.memberships_of(point);
 }
 std::span<const ParticleInfluences> ParticleSet::influences() const {
-  return data_->now().points.influences;
+  const Structure* const structure = data_->find();
+  if (structure == nullptr) return {};
+  return structure->points.influences;
 }
-std::span<const std::uint32_t> ParticleSet::owners() const { return data_->now().points.owners; }
+std::span<const std::uint32_t> ParticleSet::owners() const {
+  const Structure* const structure = data_->find();
+  if (structure == nullptr) return {};
+  return structure->points.owners;
+}
 std::span<const ParticleGradients> ParticleSet::gradients(const TornModel& model) {
   if (!data_->own && data_->shared->gradients->is_wanted())
     return data_->shared->gradients->known();
@@ -144,16 +152,24 @@ std::span<const ParticleGradients> ParticleSet::gradients(const TornModel& model
     return {};
   }
 }
-bool ParticleSet::is_broken() const { return data_->is_broken || data_->now().tears.is_broken; }
-std::size_t ParticleSet::memory_bytes() const { return data_->memory_bytes(); }
-bool ParticleSet::is_settled() const { return data_->now().tears.band == nullptr; }
-std::span<const std::uint32_t> ParticleSet::vertex_points(std::uint32_t mesh) const {
-  SUNDER_ASSERT(mesh < data_->now().vertex_points.of_mesh.size());
-  return data_->now().vertex_points.of_mesh[mesh];
+bool ParticleSet::is_broken() const {
+  return data_->is_broken || data_->without_points().tears.is_broken;
 }
-std::span<const Vec3f> ParticleSet::positions() const { return data_->now().points.positions; }
-std::span<const LipEdge> ParticleSet::lips() const { return data_->now().lips; }
-std::uint64_t ParticleSet::revision() const { return data_->now().revision; }
+std::size_t ParticleSet::memory_bytes() const { return data_->memory_bytes(); }
+bool ParticleSet::is_settled() const { return data_->without_points().tears.band == nullptr; }
+std::span<const std::uint32_t> ParticleSet::vertex_points(std::uint32_t mesh) const {
+  const Structure* const structure = data_->find();
+  if (structure == nullptr) return {};
+  SUNDER_ASSERT(mesh < structure->vertex_points.of_mesh.size());
+  return structure->vertex_points.of_mesh[mesh];
+}
+std::span<const Vec3f> ParticleSet::positions() const {
+  const Structure* const structure = data_->find();
+  if (structure == nullptr) return {};
+  return structure->points.positions;
+}
+std::span<const LipEdge> ParticleSet::lips() const { return data_->without_points().lips; }
+std::uint64_t ParticleSet::revision() const { return data_->without_points().revision; }
 
 DirtyRanges ParticleSet::dirty_points() const {
   if (!data_->own) return {};
@@ -162,9 +178,9 @@ DirtyRanges ParticleSet::dirty_points() const {
   return DirtyRanges::covering(dirty);
 }
 
-Result<std::vector<std::uint32_t>> ParticleSet::tips(const TornModel& model) const {
+Result<std::vector<std::uint32_t>> find_tips(const ParticleSet& particles, const TornModel& model) {
   try {
-    return particles::find_tips(model, data_->now());
+    return particles::find_tips(model, particles::StructureOf::in(particles));
   } catch (const std::bad_alloc&) {
     return out_of_memory();
   }
@@ -172,7 +188,7 @@ Result<std::vector<std::uint32_t>> ParticleSet::tips(const TornModel& model) con
 
 Status ParticleSet::rest(const ModelPose& pose, std::span<const std::uint32_t> particles,
                          std::span<ParticleRest> rest) const {
-  const particles::CharacterLink& character = data_->now().character;
+  const particles::CharacterLink& character = data_->without_points().character;
   if (Status status = particles::check_pose(character, pose); !status) return status;
   if (rest.size() != particles.size())
     return Status::failure(StatusCode::size_mismatch, kNone,
@@ -188,13 +204,13 @@ Status ParticleSet::rest(const ModelPose& pose, std::span<const std::uint32_t> p
   if (Status status = posed.set(character.skins, pose); !status) return status;
   for (std::size_t i = 0; i < particles.size(); ++i) {
     SUNDER_ASSERT(particles[i] < particle_count());
-    rest[i] = posed.rest(data_->now().particles[particles[i]]);
+    rest[i] = posed.rest(data_->without_points().particles[particles[i]]);
   }
   return {};
 }
 
 Status ParticleSet::follow(const TornModel& model, std::span<const ChangeRecord> changes) {
-  if (&model.source() != data_->now().character.source)
+  if (&model.source() != data_->without_points().character.source)
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "the particles belong to another model, or it was compacted since; "
                            "create a new ParticleSet");
@@ -218,10 +234,19 @@ Status ParticleSet::follow(const TornModel& model, std::span<const ChangeRecord>
 }
 
 Status ParticleSet::prepare_to_follow() {
-  if (data_->own) return {};
+  if (data_->own && !data_->is_packed()) return {};
   try {
     data_->end_fork();
     (void)data_->to_change();
+    return {};
+  } catch (const std::bad_alloc&) {
+    return out_of_memory();
+  }
+}
+
+Status ParticleSet::pack() {
+  try {
+    data_->pack();
     return {};
   } catch (const std::bad_alloc&) {
     return out_of_memory();

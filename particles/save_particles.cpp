@@ -61,15 +61,8 @@ void complete(const TornModel& model, const Structure& decomposition, Structure&
   if (structure.gradients->is_wanted()) (void)structure.gradients->of(model.surface(), structure);
   if (structure.tears.done.empty()) return;
   for (Change& change : structure.tears.done) change.operation = Change::kUnnamed;
-  Change& last = structure.tears.done.back();
-  last.operation = model.newest_operation();
-  // The last operation goes on to log each point and particle once.
-  structure.scratch.logged_points.begin(last.points);
-  structure.scratch.logged_particles.begin(structure.particles.size());
-  last.changed_points.for_each(
-      [&](const Change::OfPoint& of) { (void)structure.scratch.logged_points.mark(of.point); });
-  for (const auto& [particle, before] : last.changed_particles)
-    (void)structure.scratch.logged_particles.mark(particle);
+  structure.tears.done.back().operation = model.newest_operation();
+  particles::resume_log(structure);
 }
 
 }  // namespace
@@ -88,7 +81,9 @@ Result<StateArrays> ParticleSet::save() const {
     Tape tape = Tape::writer(state);
     bool is_torn = data_->own != nullptr;
     tape(is_torn);
-    if (is_torn) particles::describe(tape, *data_->own, *data_->shared);
+    const bool was_packed = data_->is_packed();
+    if (is_torn) particles::describe(tape, data_->to_change(), *data_->shared);
+    if (was_packed) data_->pack();
     return state;
   } catch (const std::bad_alloc&) {
     return out_of_memory();

@@ -392,9 +392,9 @@ std::span<const Mat3f> SoftBody::rotations() {
 }
 
 std::span<const IndexRange> SoftBody::moved_vertices(const TornModel& model, std::uint32_t mesh) {
-  const particles::Structure& structure = particles::StructureOf::in(*state_->set);
-  SUNDER_ASSERT(mesh < structure.vertex_points.of_mesh.size());
   try {
+    const particles::Structure& structure = particles::StructureOf::in(*state_->set);
+    SUNDER_ASSERT(mesh < structure.vertex_points.of_mesh.size());
     state_->follow_particles();
     particles::ShownMotion& shown = state_->shown;
     return shown.moved_vertices.of(structure, model, mesh, shown.displaced_key, shown.is_displaced);

@@ -68,6 +68,8 @@ Status CharacterInstance::pack() {
   const MemoryScope scope(state_->memory);
   if (!state_->torn) return {};
   if (Status status = state_->torn->model.pack(); !status) return status;
+  if (state_->torn->particles)
+    if (Status status = state_->torn->particles->pack(); !status) return status;
   state_->release_scratch();
   return {};
 }

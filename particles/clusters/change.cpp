@@ -77,9 +77,9 @@ void exchange(Structure& structure, Change& change) {
   if (is_done) change.appended = std::make_shared<Change::Appended>();
   Change::Appended& appended = *change.appended;
   exchange_changed(structure, change, is_done);
-  structure.points.for_each_column(appended.points, [&](auto& column, auto& tail) {
-    move_tail(column, change.points, is_done, tail);
-  });
+  PointColumns::for_each_column(
+      [&](auto& column, auto& tail) { move_tail(column, change.points, is_done, tail); },
+      structure.points, appended.points);
   move_tail(structure.particles, change.particles, is_done, appended.particles);
   move_tail(structure.members.joined, change.particles, is_done, appended.joined);
   move_tail(structure.lips, change.lips, is_done, appended.lips);

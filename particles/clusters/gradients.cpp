@@ -267,6 +267,12 @@ void Gradients::forget(const TornModel& model, const Structure& structure,
     for (const MeshChange& of_mesh : record.meshes) forget(model, structure, of_mesh, change);
 }
 
+void Gradients::release_rows() {
+  std::vector<ParticleGradients>().swap(gradients_);
+  std::vector<Index>().swap(unknown_);
+  logged_ = {};
+}
+
 std::span<const ParticleGradients> Gradients::of(const Surface& surface,
                                                  const Structure& structure) {
   const Index count = structure.points.count();

@@ -33,6 +33,20 @@ class Gradients {
   }
   /// Whether of() was ever called. Before, nothing is computed or logged.
   [[nodiscard]] bool is_wanted() const { return is_wanted_; }
+  /// Frees the rows, which are up to date or not wanted.
+  void release_rows();
+  /// @param fill  writes the rows as they were. @param last  the last operation, or null.
+  /// @throws std::bad_alloc
+  template <class Fill>
+  void restore_rows(Fill fill, const Change* last) {
+    fill(gradients_);
+    if (!is_wanted_) return;
+    reserve_eighth(unknown_, gradients_.size());
+    logged_.begin(gradients_.size());
+    if (last == nullptr || !last->changed_gradients) return;
+    for (const Change::OfGradients& of : *last->changed_gradients)
+      if (of.point < last->points) (void)logged_.mark(of.point);
+  }
   /// One entry per point.
   std::span<const ParticleGradients> of(const Surface& surface, const Structure& structure);
 

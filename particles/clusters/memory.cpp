@@ -65,8 +65,4 @@ std::size_t Structure::memory_bytes() const {
   return bytes;
 }
 
-std::size_t SetData::memory_bytes() const {
-  return sizeof(SetData) + (own ? own->memory_bytes() : 0);
-}
-
 }  // namespace sunder::particles

@@ -26,7 +26,7 @@ void PointTable::drop_undone() {
 }
 
 void PointTable::make_room(std::size_t points) {
-  for_each_column(*this, [&](auto& column, auto&) { reserve_eighth(column, points); });
+  for_each_column([&](auto& column) { reserve_eighth(column, points); }, *this);
 }
 
 }  // namespace sunder::particles

@@ -35,15 +35,15 @@ struct PointColumns {
   std::vector<Index> owners;  ///< The particle in whose cell the point is; kNone: none.
   std::vector<LipPoint> lip_points;
 
-  /// Calls visit(column, column of `other`) for each column; the only place that lists them.
-  template <class Other, class Visit>
-  void for_each_column(Other& other, Visit visit) {
-    visit(positions, other.positions);
-    visit(vertices, other.vertices);
-    visit(slabs, other.slabs);
-    visit(influences, other.influences);
-    visit(owners, other.owners);
-    visit(lip_points, other.lip_points);
+  /// Calls visit(the column of each of `tables`) for each column; the only place that lists them.
+  template <class Visit, class... Tables>
+  static void for_each_column(Visit visit, Tables&... tables) {
+    visit(tables.positions...);
+    visit(tables.vertices...);
+    visit(tables.slabs...);
+    visit(tables.influences...);
+    visit(tables.owners...);
+    visit(tables.lip_points...);
   }
 };
 

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <atomic>
 #include <memory>
 
 #include "particles/clusters/fork_link.h"
+#include "particles/clusters/packed_points.h"
 #include "particles/clusters/structure.h"
 
 namespace sunder::particles {
@@ -30,13 +32,38 @@ struct SetData {
     }
     fork.reset();
   }
-  [[nodiscard]] const Structure& now() const { return own ? *own : *shared; }
+  /// @throws std::bad_alloc if it was packed.
+  [[nodiscard]] const Structure& now() const {
+    unpack();
+    return without_points();
+  }
+  /// Null without memory to unpack it.
+  [[nodiscard]] const Structure* find() const noexcept;
+  [[nodiscard]] Index point_count() const;
+  /// Without the columns of its points, which may be packed.
+  [[nodiscard]] const Structure& without_points() const { return own ? *own : *shared; }
   /// The structure to be changed. The first call copies the shared one. @throws std::bad_alloc
   [[nodiscard]] Structure& to_change() {
     if (!own) own = shared->copy();
+    unpack();
     return *own;
   }
+  /// Packs the columns of points, unless there is work to do, or it would not save anything.
+  /// @throws std::bad_alloc, and nothing changes.
+  void pack();
+  [[nodiscard]] bool is_packed() const { return packed_now_.load(std::memory_order_acquire); }
   [[nodiscard]] std::size_t memory_bytes() const;
+
+ private:
+  /// Reentrant.
+  void unpack() const {
+    if (is_packed()) unpack_points();
+  }
+  void unpack_points() const;
+
+  mutable Mutex unpacking_;
+  mutable std::unique_ptr<const PackedPoints> packed_;  ///< Of `own`.
+  mutable std::atomic<bool> packed_now_ = false;        ///< Whether there is `packed_`.
 };
 
 }  // namespace sunder::particles

@@ -20,8 +20,9 @@ std::unique_ptr<Structure> Structure::copy() const {
   made->vertex_points = vertex_points;
   // The columns are copied into room for some more, so that the next tears need no other copy.
   made->points.make_room(points.count() + 1);
-  made->points.for_each_column(
-      points, [](auto& column, auto& of) { column.insert(column.end(), of.begin(), of.end()); });
+  PointColumns::for_each_column(
+      [](auto& column, const auto& of) { column.insert(column.end(), of.begin(), of.end()); },
+      made->points, points);
   made->points.memberships = points.memberships;
   made->points.older_lips = points.older_lips;
   made->authored = authored;
@@ -51,6 +52,17 @@ std::unique_ptr<Structure> Structure::fork() const {
 void Structure::make_room(std::size_t point_count) {
   points.make_room(point_count);
   scratch.make_room(point_count);
+}
+
+void resume_log(Structure& structure) {
+  if (structure.tears.done.empty()) return;
+  const Change& last = structure.tears.done.back();
+  structure.scratch.logged_points.begin(last.points);
+  structure.scratch.logged_particles.begin(structure.particles.size());
+  last.changed_points.for_each(
+      [&](const Change::OfPoint& of) { (void)structure.scratch.logged_points.mark(of.point); });
+  for (const auto& [particle, before] : last.changed_particles)
+    (void)structure.scratch.logged_particles.mark(particle);
 }
 
 void Structure::finish(Index triangles) {

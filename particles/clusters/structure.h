@@ -132,4 +132,8 @@ struct Structure {
   void note_dirty_points();
 };
 
+/// Lets the last operation, if there is one, go on to log each point and particle once, after
+/// scratch memory was made anew. @throws std::bad_alloc
+void resume_log(Structure& structure);
+
 }  // namespace sunder::particles

@@ -43,7 +43,7 @@ ParticleFork& ParticleFork::operator=(ParticleFork&&) noexcept = default;
 
 Result<ParticleFork> ParticleFork::create(ParticleSet& set, const TornModel& model) {
   particles::SetData& of = StructureOf::data(set);
-  const std::vector<particles::Change>& done = of.now().tears.done;
+  const std::vector<particles::Change>& done = of.without_points().tears.done;
   if (set.is_broken()) return refuse("the particles are broken; create a new ParticleSet");
   if (model.is_in_stroke() || (!done.empty() && done.back().operation == 0))
     return refuse("a stroke is in progress");

@@ -181,6 +181,7 @@ void Actor::update(const Frame& of) {
   frame.was_idle = !is_active();
   if (frame.was_idle && of.allowance.has_model_work) pack();
   if (frame.was_waiting || frame.was_idle) return;
+  if (instance.body() != nullptr) is_packed_ = false;  // what moves is unpacked
   const double seconds = of.now - now_;
   now_ = of.now;
   try {

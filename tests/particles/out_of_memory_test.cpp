@@ -3,6 +3,7 @@
 
 #include <sunder/particles/force_tearing.h>
 
+#include <algorithm>
 #include <array>
 #include <optional>
 
@@ -109,7 +110,7 @@ TEST(OutOfMemory, settle_ends) {
 TEST(OutOfMemory, lists_are_refused) {
   starve(followed, [](TornSheet& scene) { return answer_of(scene.set->members(0).error()); });
   starve(followed,
-         [](TornSheet& scene) { return answer_of(scene.set->tips(*scene.model).error()); });
+         [](TornSheet& scene) { return answer_of(find_tips(*scene.set, *scene.model).error()); });
 }
 
 TEST(OutOfMemory, accessors_answer_nothing_and_later_all) {
@@ -148,6 +149,57 @@ TEST(OutOfMemory, accessors_answer_nothing_and_later_all) {
         return scene.body->moved_vertices(*scene.model, 0).empty() ? Answer::refused : Answer::done;
       },
       [](TornSheet& scene) { EXPECT_FALSE(scene.body->moved_vertices(*scene.model, 0).empty()); });
+}
+
+/// A torn sheet whose particles have an asset, so that they can be packed.
+struct PackableSheet {
+  std::shared_ptr<const Character> character =
+      std::make_shared<const Character>(test::make_sheet(30));
+  ModelPose pose = *bind_pose(*character);
+  TornModel model = *TornModel::create(character);
+  ParticleSet set = *ParticleSet::create(*ParticleAsset::create(model, pose), model);
+
+  PackableSheet() {
+    const std::array<Blade, 2> stroke = {test::down_at(0.503, 0.4), test::down_at(0.503, 0.5)};
+    ChangeRecord change;
+    EXPECT_TRUE(model.tear(pose, stroke, {}, &change));
+    EXPECT_TRUE(set.follow(model, {&change, 1}));
+    while (set.settle(model, 1000)) {
+    }
+    (void)set.gradients(model);
+  }
+};
+
+TEST(OutOfMemory, a_set_that_cannot_be_packed_stays_as_it_is) {
+  StateArrays before;
+  starve(
+      [&] {
+        auto sheet = std::make_unique<PackableSheet>();
+        before = *sheet->set.save();
+        return sheet;
+      },
+      [&](PackableSheet& sheet) { return answer_of(sheet.set.pack()); },
+      [&](PackableSheet& sheet) { EXPECT_EQ(*sheet.set.save(), before); });
+}
+
+TEST(OutOfMemory, a_packed_set_has_no_points_until_there_is_memory) {
+  std::vector<ParticleInfluences> before;
+  starve(
+      [&] {
+        auto sheet = std::make_unique<PackableSheet>();
+        before.assign(sheet->set.influences().begin(), sheet->set.influences().end());
+        const std::size_t unpacked = sheet->set.memory_bytes();
+        EXPECT_TRUE(sheet->set.pack());
+        EXPECT_LT(sheet->set.memory_bytes(), unpacked / 2);
+        EXPECT_EQ(sheet->set.point_count(), before.size());
+        return sheet;
+      },
+      [&](PackableSheet& sheet) {
+        return sheet.set.influences().empty() ? Answer::refused : Answer::done;
+      },
+      [&](PackableSheet& sheet) {
+        EXPECT_TRUE(std::ranges::equal(sheet.set.influences(), before));
+      });
 }
 
 TEST(OutOfMemory, accessors_that_do_not_list_need_none) {

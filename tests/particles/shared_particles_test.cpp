@@ -1,9 +1,12 @@
 // Sets that share the decomposition of their character, and states that are saved and restored.
 
+#include <sunder/particles/particle_fork.h>
 #include <sunder/particles/soft_body.h>
 #include <sunder/tear/tear_stroke.h>
 
+#include <atomic>
 #include <limits>
+#include <thread>
 #include <vector>
 
 #include "particles/internal/body_copy.h"
@@ -268,6 +271,115 @@ TEST(saved_particles, go_on_amid_the_points_of_one_particle) {
     }
     ASSERT_NO_FATAL_FAILURE(expect_same(first, second, shared.pose));
   }
+}
+
+TEST(packed_particles, go_on_with_the_same_bits) {
+  int packed = 0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE(seed);
+    Random of_character(seed);
+    Character character = test::random_character(of_character);
+    if (seed % 3 == 0)  // an asset without gradients
+      for (Mesh& mesh : character.meshes) mesh.normals.clear();
+    const Shared shared(std::move(character));
+    Instance kept(shared.character, shared.asset, shared.pose),
+        packing(shared.character, shared.asset, shared.pose);
+    Random one(seed), other(seed), when(seed);
+    for (int i = 0; i < 40; ++i) {
+      (void)act(kept, one, shared.pose);
+      (void)act(packing, other, shared.pose);
+      if (when.index(2) == 0) {  // nothing to do is left
+        while (kept.set->settle(*kept.model, 1000)) {
+        }
+        while (packing.set->settle(*packing.model, 1000)) {
+        }
+      }
+      const std::size_t before = packing.set->memory_bytes();
+      ASSERT_TRUE(packing.set->pack());
+      packed += packing.set->memory_bytes() < before;
+      if (when.index(2) == 0 && kept.set->is_settled()) {
+        ASSERT_EQ(*packing.set->save(), *kept.set->save());
+      }
+      if (when.index(3) == 0) {
+        ASSERT_NO_FATAL_FAILURE(expect_same(kept, packing, shared.pose));
+      }
+    }
+    ASSERT_NO_FATAL_FAILURE(expect_same(kept, packing, shared.pose));
+  }
+  EXPECT_GT(packed, 400);
+}
+
+/// What can be read of the points of a set.
+struct PointsOf {
+  std::vector<ParticleInfluences> influences;
+  std::vector<std::uint32_t> owners, vertex_points;
+  std::vector<Vec3f> positions;
+
+  explicit PointsOf(const ParticleSet& set)
+      : influences(set.influences().begin(), set.influences().end()),
+        owners(set.owners().begin(), set.owners().end()),
+        vertex_points(set.vertex_points(0).begin(), set.vertex_points(0).end()),
+        positions(set.positions().begin(), set.positions().end()) {}
+  bool operator==(const PointsOf&) const = default;
+};
+
+TEST(packed_particles, take_memory_in_proportion_to_what_was_torn) {
+  const Shared shared(test::make_sheet(150));  // 22,500 points
+  Instance instance(shared.character, shared.asset, shared.pose);
+  const Stroke stroke = {test::down_at(0.5, 0.5), test::down_at(0.52, 0.5)};
+  ChangeRecord change;
+  ASSERT_TRUE(instance.model->tear(shared.pose, stroke, {}, &change));
+  ASSERT_TRUE(instance.set->follow(*instance.model, {&change, 1}));
+  while (instance.set->settle(*instance.model, 1000)) {
+  }
+  (void)instance.set->gradients(*instance.model);
+  const PointsOf before(*instance.set);
+  std::size_t all = instance.set->memory_bytes();
+  ASSERT_GT(all, 200u * instance.set->point_count());
+  ASSERT_TRUE(instance.set->pack());
+  EXPECT_LT(instance.set->memory_bytes(), all / 10);
+  // It stays packed while particles are read, and while it is saved.
+  (void)instance.set->save();
+  (void)instance.set->is_settled();
+  for (std::uint32_t p = 0; p < instance.set->particle_count(); ++p)
+    (void)instance.set->neighbours(p);
+  EXPECT_LT(instance.set->memory_bytes(), all / 10);
+  std::vector<std::thread> readers;
+  std::atomic<int> wrong = 0;
+  for (int i = 0; i < 4; ++i)
+    readers.emplace_back([&] { wrong += !(PointsOf(*instance.set) == before); });
+  for (std::thread& reader : readers) reader.join();
+  EXPECT_EQ(wrong, 0);
+}
+
+TEST(packed_particles, wait_for_the_end_of_work) {
+  const Shared shared(test::make_sheet(60));
+  Instance instance(shared.character, shared.asset, shared.pose);
+  const auto stays = [&] {
+    const std::size_t before = instance.set->memory_bytes();
+    EXPECT_TRUE(instance.set->pack());
+    return instance.set->memory_bytes() == before;
+  };
+  EXPECT_TRUE(stays()) << "it shares all it has";
+  const Stroke stroke = {test::down_at(0.25, 0.5), test::down_at(0.75, 0.5)};
+  ChangeRecord change;
+  ASSERT_TRUE(instance.model->tear(shared.pose, stroke, {}, &change));
+  ASSERT_TRUE(instance.set->follow(*instance.model, {&change, 1}));
+  ASSERT_FALSE(instance.set->is_settled());
+  EXPECT_TRUE(stays()) << "there is work for settle()";
+  while (instance.set->settle(*instance.model, 1000)) {
+  }
+  (void)instance.set->gradients(*instance.model);
+  {
+    auto fork = ParticleFork::create(*instance.set, *instance.model);
+    ASSERT_TRUE(fork);
+    EXPECT_TRUE(stays()) << "a fork may copy it";
+  }
+  EXPECT_FALSE(stays());
+  Instance own(shared.character, nullptr, shared.pose);
+  const std::size_t before = own.set->memory_bytes();
+  EXPECT_TRUE(own.set->pack());
+  EXPECT_EQ(own.set->memory_bytes(), before) << "it has no asset";
 }
 
 /// Replaces one number of a state by an odd one, or one from elsewhere.

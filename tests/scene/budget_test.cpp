@@ -47,6 +47,7 @@ class TornScene {
     ASSERT_TRUE(scene_.update(kFrame));
   }
   [[nodiscard]] Scene& scene() { return scene_; }
+  [[nodiscard]] const Scene& scene() const { return scene_; }
   std::vector<InstanceId> ids;
 
  private:
@@ -113,6 +114,54 @@ TEST(budget, recorded_budgets_replay_the_same_bits_on_any_number_of_threads) {
     ASSERT_EQ(wanted.size(), found.size());
     ASSERT_FALSE(wanted.empty());
     EXPECT_EQ(std::memcmp(wanted.data(), found.data(), wanted.size() * sizeof(Vec3f)), 0);
+  }
+}
+
+TEST(budget, what_was_packed_goes_on_with_the_same_bits) {
+  const auto asset = soft_ball();
+  TornScene packing(asset, 1, 1), kept(asset, 1, 1);
+  const std::uint32_t any = FrameBudget::kUnlimited;
+  const auto update = [&](int frames) {
+    for (int i = 0; i < frames; ++i) {
+      ASSERT_NO_FATAL_FAILURE(packing.update({.settled_points = any, .model_work = any}));
+      ASSERT_NO_FATAL_FAILURE(kept.update({.settled_points = any, .model_work = 0}));
+    }
+  };
+  const auto expect_same = [&] {
+    const auto wanted = places(kept.scene(), kept.ids[0]),
+               found = places(packing.scene(), packing.ids[0]);
+    ASSERT_EQ(wanted.size(), found.size());
+    EXPECT_EQ(std::memcmp(wanted.data(), found.data(), wanted.size() * sizeof(Vec3f)), 0);
+  };
+  const auto memory = [](const TornScene& of) {
+    return static_cast<double>(of.scene().memory_bytes().instances);
+  };
+  update(1200);  // its tissue comes to rest
+  for (int round = 0; round < 3; ++round) {
+    SCOPED_TRACE(round);
+    ASSERT_EQ(packing.scene().stats().idle, 1u);
+    EXPECT_LT(memory(packing), 0.6 * memory(kept));
+    if (round == 1) {
+      const auto tissue = [](const TornScene& of) { return *of.scene().find(of.ids[0])->tissue(); };
+      EXPECT_TRUE(tissue(packing).particles == tissue(kept).particles);
+      EXPECT_TRUE(tissue(packing).body == tissue(kept).body);
+      EXPECT_LT(memory(packing), 0.6 * memory(kept)) << "to save it does not unpack it";
+    }
+    for (TornScene* const of : {&packing, &kept}) {
+      if (round == 2) {
+        ASSERT_TRUE(of->scene().submit(of->ids[0], UndoCommand{}));
+      } else {
+        ModelPose pose = std::as_const(*of).scene().find(of->ids[0])->pose();
+        pose.model_from_bone[2] = Eigen::Translation3d(0.02, 0, 0.01) * pose.model_from_bone[2];
+        ASSERT_TRUE(of->scene().set_pose(of->ids[0], pose));
+      }
+    }
+    for (int i = 0; i < 60; ++i) {
+      update(1);
+      ASSERT_NO_FATAL_FAILURE(expect_same());
+    }
+    update(1000);
+    expect_same();
   }
 }
 

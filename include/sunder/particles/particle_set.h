@@ -172,12 +172,6 @@ class SUNDER_API ParticleSet {
   /// Border edges that operations created and that are still open, in order of creation.
   [[nodiscard]] std::span<const LipEdge> lips() const;
 
-  /// Points where the two lips of a tear meet; for a gap, the middle of its end. Ascending. O(edges
-  /// of lips), allocates.
-  /// @param model  as follow() left it.
-  /// @return limit_exceeded: out of memory.
-  [[nodiscard]] Result<std::vector<std::uint32_t>> tips(const TornModel& model) const;
-
   // ---- Poses.
 
   /// Evaluates the rest of some particles in a pose. Not for concurrent use: it uses memory of the
@@ -202,8 +196,17 @@ class SUNDER_API ParticleSet {
   Status follow(const TornModel& model, std::span<const ChangeRecord> changes);
 
   /// Copies what the set shares with others now, which the first follow() of a tear would do
-  /// otherwise. O(points + memberships), once. @return limit_exceeded: out of memory.
+  /// otherwise, and unpacks it. O(points + memberships), once. @return limit_exceeded: out of
+  /// memory.
   Status prepare_to_follow();
+  /// Stores what the set knows of points in proportion to what tears changed. For a set whose
+  /// bodies are at rest. It is unpacked, bit for bit, by the next change, by a step of a body, and
+  /// by what reads points, which returns nothing without memory for it; spans that were read
+  /// before are invalid. Does nothing if there is work for settle(), during a stroke, while there
+  /// is a ParticleFork, for gradients that are not up to date, and if the set was made without an
+  /// asset. O(points).
+  /// @return limit_exceeded: out of memory, nothing changes.
+  Status pack();
 
   /// Continues the work of follow(), for at most `points` points: particles that a long tear passes
   /// are separated completely. Call it once per frame; SoftBody::step() does. Other operations may
@@ -246,6 +249,13 @@ class SUNDER_API ParticleSet {
   explicit ParticleSet(std::unique_ptr<particles::SetData> data);
   std::unique_ptr<particles::SetData> data_;
 };
+
+/// Points where the two lips of a tear meet; for a gap, the middle of its end. Ascending. O(edges
+/// of lips), allocates.
+/// @param model  as follow() left it.
+/// @return limit_exceeded: out of memory.
+[[nodiscard]] SUNDER_API Result<std::vector<std::uint32_t>> find_tips(const ParticleSet& particles,
+                                                                      const TornModel& model);
 
 /// The result of a search for a range.
 struct FoundRange {

@@ -94,7 +94,7 @@ DisplacedSurface measure_displaced(const TornModel& model, const ModelPose& pose
   DisplacedSurface found;
   std::vector<Vec3f> tips;
   if (from_tips > 0)
-    if (const auto points = set.tips(model))
+    if (const auto points = find_tips(set, model))
       for (const std::uint32_t point : *points) tips.push_back(set.positions()[point]);
   const auto is_near_tip = [&](const Vec3f& at) {
     return std::ranges::any_of(
