@@ -1,5 +1,5 @@
 // One character in a scene.
-import { SUNDER_IN_BACKGROUND, sunder_blood_flow_options, sunder_bore, sunder_collider, sunder_contact, sunder_cut, sunder_detach, sunder_force_tearing_options, sunder_layer_options, sunder_save_options, sunder_stroke_sampling, sunder_suture, sunder_tear_options, sunder_weld, sunder_wound_mask_options } from '../generated/calls.js';
+import { SUNDER_IN_BACKGROUND, sunder_blood_flow_options, sunder_bore, sunder_collider, sunder_contact, sunder_cut, sunder_detach, sunder_force_tearing_options, sunder_layer_options, sunder_save_options, sunder_stroke_sampling, sunder_suture, sunder_suture_thread, sunder_tear_options, sunder_weld, sunder_wound_mask_options } from '../generated/calls.js';
 import { Hold, Layer, Stroke } from './handles_of_tissue.js';
 import { takeBytes, takeText } from './made_bytes.js';
 import { materialOf } from './materials.js';
@@ -9,6 +9,7 @@ import { PosedMesh } from './posed_mesh.js';
 import { invalidArgument, invalidHandle } from './sunder_error.js';
 import { takeReport, validationFields } from './validation.js';
 
+const NONE = 0xFFFFFFFF;
 const CHANNELS = ['age', 'depth', 'stretch'];
 const contactOf = ({ has_hit, contact }) => (has_hit ? namesOf(contact) : null);
 const flagsOf = (background) => (background ? SUNDER_IN_BACKGROUND : 0);
@@ -84,6 +85,12 @@ export class Instance {
     const fields = fieldsOf(sunder_suture, options);
     if (places) Object.assign(fields, { places: flat(places, 'places'), place_count: places.length });
     return this.#submit('sunder_submit_suture', fields, flagsOf(background));
+  }
+  /** The threads of all sutures, in the order in which they were tied: { left, right, newtons, isBroken }; an end that holds nothing any more is null. */
+  get threads() {
+    const { threads, count } = this.#call('sunder_get_threads'), end = (mesh, vertex) => (mesh === NONE || vertex === NONE ? null : { mesh, vertex });
+    return this.#calls.memory.readStructs(sunder_suture_thread, threads, count).map((thread) => ({
+      left: end(thread.left_mesh, thread.left_vertex), right: end(thread.right_mesh, thread.right_vertex), newtons: thread.newtons, isBroken: thread.is_broken !== 0 }));
   }
   /** Takes a connected piece off. @param piece  { mesh, triangle } or { point, bone }; its Result has the piece */
   detach({ bone, ...options }) {

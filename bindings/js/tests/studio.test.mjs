@@ -160,9 +160,9 @@ test('200 random actions leave no error, and their log makes the same model else
     const random = () => (seed = (seed * 48271) % 2147483647) / 2147483647;
     const done = {};
     for (let i = 0; i < 200; ++i) {
-      const choice = Math.floor(random() * 9);
+      const choice = Math.floor(random() * 11);
       Object.assign(settings, { width: random() < 0.5 ? 0 : 0.01 * random(), depth: 0.02 + 0.08 * random(), radius: 0.01 + 0.02 * random() });
-      if (choice < 6) {
+      if (choice < 8) {
         const tool = tools[choice];
         let x = 0.25 + 0.5 * random(), y = 0.1 + 0.8 * random();
         if (studio.begin(tool, eventAt(x, y, now))) {
@@ -175,8 +175,8 @@ test('200 random actions leave no error, and their log makes the same model else
           studio.end();
           done[tool.name] = (done[tool.name] ?? 0) + 1;
         }
-      } else if (choice === 6) studio.undo();
-      else if (choice === 7) studio.redo();
+      } else if (choice === 8) studio.undo();
+      else if (choice === 9) studio.redo();
       else studio.speed = random();
       frames(2);
     }
@@ -185,7 +185,7 @@ test('200 random actions leave no error, and their log makes the same model else
     return { log: instance.log, digest: String(instance.digest), done, operations: instance.undoCounts.undo };
   });
   t.diagnostic(`${JSON.stringify(done)}; ${operations} operations are left`);
-  assert.equal(Object.keys(done).length, 5, 'each tool took a drag');
+  assert.equal(Object.keys(done).length, 7, 'each tool took a drag');
   assert.ok(operations > 5);
   await expectDigest(log, operations, digest);
 }));
@@ -463,6 +463,52 @@ test('blood is seen beside a wound, and undo takes it away', needsChromium, asyn
   });
   assert.ok(seen.red > 100, `${seen.red} pixels of blood`);
   assert.ok(seen.left < 20, `${seen.left} pixels of blood that stay`);
+}));
+
+test('a wound is sewn, opened again, and heals', needsChromium, async (t) => withStudio(async (page) => {
+  await takeFrames(page);
+  /** Uses a tool along a way, and lets tissue come to rest. @returns what is said, and the stitches */
+  const use = (name, way) => page.evaluate((name, way) => {
+    const { studio, tools } = globalThis.studio;
+    const events = way.map(([x, y], i) => eventAt(x, y, studio.now = (studio.now ?? 0) + 0.1));
+    if (!studio.begin(tools.find((tool) => tool.name === name), events[0])) throw new Error(`${name} took nothing`);
+    for (const event of events.slice(1)) {
+      frames(1);
+      studio.move(event);
+    }
+    studio.end();
+    frames(150);
+    return { said: document.getElementById('said').textContent, stitches: studio.actor.stitches.count };
+  }, name, way);
+  const flesh = async () => {
+    await page.evaluate(() => globalThis.studio.stage.draw());
+    return fleshPixels(page);
+  };
+  const middle = [0.515, 0.4];
+  await page.evaluate(() => {
+    const { studio, settings } = globalThis.studio;
+    studio.isPlaying = false;
+    settings.tension = 0.3;
+    studio.applySettings();
+    frames(2);
+  });
+  const clean = await flesh();
+  await use('Blade', [[0.505, 0.3], [0.51, 0.35], middle, [0.52, 0.45], [0.525, 0.5]]);
+  const open = await flesh();
+  const sewn = await use('Sew', [middle]), held = await flesh();
+  assert.match(sewn.said, /^[0-9]+ threads hold$/);
+  assert.equal(sewn.stitches, Number.parseInt(sewn.said, 10));
+  assert.ok(sewn.stitches >= 3, sewn.said);
+  t.diagnostic(`pixels of flesh: ${clean}, open ${open}, sewn ${held} by ${sewn.stitches} threads`);
+  assert.ok(held - clean < 0.6 * (open - clean), `${open} pixels of flesh, ${held} below threads, ${clean} before`);
+  await page.evaluate(() => { globalThis.studio.studio.undo(); frames(150); });
+  assert.equal(await page.evaluate(() => globalThis.studio.studio.actor.stitches.count), 0);
+  assert.ok(await flesh() - clean > 0.8 * (open - clean));
+  assert.equal((await use('Heal', [middle])).said, 'The wound is closed');
+  assert.ok(await flesh() - clean < 0.1 * (open - clean));
+  const { log, digest } = await page.evaluate(() => ({ log: globalThis.studio.studio.actor.instance.log, digest: String(globalThis.studio.studio.actor.instance.digest) }));
+  await expectDigest(log, 2, digest);
+  assert.equal((await use('Sew', [middle])).said, 'There is no wound without a gap');
 }));
 
 test('weights that are deliberately wrong are seen where the character was torn, and their bound is said', needsChromium, async (t) => withStudio(async (page) => {

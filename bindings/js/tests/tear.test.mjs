@@ -89,6 +89,10 @@ test('a weld closes a wound, a bit of it or all, and can be undone', async () =>
   assert.equal(it.digest, open);
   it.suture({ spacing: 0.05, strength: 10 });
   assert.ok(scene.update(0)[0].runs > 0 && it.log.includes('"suture"') && it.digest !== open);
+  const { threads } = it;
+  assert.ok(threads.length > 1);
+  for (const { left, right, newtons, isBroken } of threads)
+    assert.ok(left.mesh === right.mesh && left.vertex !== right.vertex && newtons >= 0 && !isBroken);
   it.undo();
   scene.update(0);
   assert.equal(it.digest, open);

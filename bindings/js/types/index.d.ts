@@ -178,6 +178,12 @@ export interface WeldOptions {
   /** How far from these places along the wound, metres; 0: to its ends. */
   reach?: number; background?: boolean;
 }
+/** A thread of a suture. An end that holds nothing any more is null. */
+export interface SutureThread {
+  left: { mesh: number; vertex: number } | null; right: { mesh: number; vertex: number } | null;
+  /** With which it pulled its lips together in the last update. */
+  newtons: number; isBroken: boolean;
+}
 export interface SutureOptions extends WeldOptions {
   /** Between threads along the wound, metres. */
   spacing?: number;
@@ -294,6 +300,7 @@ export class Instance {
   drill(bore: BoreOptions): Command;
   weld(options?: WeldOptions): Command;
   suture(options?: SutureOptions): Command;
+  readonly threads: SutureThread[];
   detach(piece: DetachOptions): Command;
   undo(): Command;
   redo(): Command;

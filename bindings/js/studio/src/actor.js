@@ -5,6 +5,7 @@ import { Sunder } from 'sunder-tear';
 import { SunderObject } from '../../src/three/index.js';
 import { Blood } from './blood.js';
 import { Inside } from './inside.js';
+import { Stitches } from './stitches.js';
 
 /** Wounds of this share of the size are meant, when tension is chosen. */
 const WOUND = 0.25;
@@ -42,6 +43,7 @@ export class Actor {
     for (const mesh of actor.object.children) mesh.castShadow = mesh.receiveShadow = true;
     actor.size = actor.box.getSize(new THREE.Vector3()).length() || 1;
     actor.blood = new Blood(actor.instance, actor.object, actor.size);
+    actor.stitches = new Stitches(actor.instance, actor.object, actor.size);
     return actor;
   }
 
@@ -88,6 +90,7 @@ export class Actor {
   }
 
   dispose() {
+    this.stitches.dispose();
     this.object.removeFromParent();
     this.object.dispose();
     this.blood.dispose();

@@ -10,6 +10,8 @@ export class Studio {
   #onMessage;
   #pieces = [];
   #use = null;
+  /** By the command of a tool: what is said once it is done. */
+  #says = new Map();
   actor = null;
   name = '';
   isPlaying = true;
@@ -44,6 +46,7 @@ export class Studio {
   }
   close() {
     this.#use = null;
+    this.#says.clear();
     this.#dropPieces(() => true);
     this.weightsError.clear();
     this.actor?.dispose();
@@ -61,6 +64,7 @@ export class Studio {
     const { actor } = this, ray = this.#stage.ray(event), hit = actor?.hit(ray);
     if (!actor || !tool.begin || (tool.needsHit && !hit)) return false;
     this.#useTool(() => { this.#use = tool.begin({ actor, ray, hit, settings: this.#settings, time: event.timeStamp / 1000 }); });
+    if (this.#use?.says) this.#says.set(this.#use.command.id, this.#use.says);
     return true;
   }
   move(event) {
@@ -128,6 +132,7 @@ export class Studio {
     const { stats } = actor.tissue, updated = performance.now();
     actor.object.update();
     actor.blood.update();
+    actor.stitches.update();
     let bytes = actor.object.uploadedBytes;
     for (const piece of this.#pieces) {
       piece.drawn.update();
@@ -149,7 +154,8 @@ export class Studio {
       else if (result.facesCrossed > 0 || result.separatedPieces > 0) {
         const parts = result.separatedPieces > 0 ? `; ${result.separatedPieces} part${result.separatedPieces > 1 ? 's' : ''} came free` : '';
         this.#onMessage(`${result.facesCrossed} faces torn${parts}`, false);
-      }
+      } else if (this.#says.has(result.command)) this.#onMessage(this.#says.get(result.command)(result), false);
+      this.#says.delete(result.command);
     }
     if (this.#pieces.length > before) this.actor.parts.update(0);  // poses them for this frame
   }

@@ -6,6 +6,9 @@ const bladeAt = (hit, depth) => {
   const along = (distance) => hit.at.clone().addScaledVector(hit.direction, distance);
   return { base: along(-depth), tip: along(depth) };
 };
+/** Between threads, as a share of the size. */
+const THREAD_SPACING = 0.015;
+const NO_WOUND = 'There is no wound without a gap';
 const stopped = { move() {}, end() {} };
 
 const blade = {
@@ -72,7 +75,28 @@ const takeOff = {
   },
 };
 
+/** Threads and a wound that heals need lips of one tear: a gap has lost what was between its own. */
+const sew = {
+  name: 'Sew', hint: 'Click on a wound: threads hold its lips together, one beside the other. Wounds with a gap cannot be sewn.', needsHit: true,
+  begin({ actor, hit }) {
+    return {
+      ...stopped, command: actor.instance.suture({ places: [hit.at], spacing: THREAD_SPACING * actor.size }),
+      says({ runs }) {
+        if (runs === 0) return NO_WOUND;
+        return `${actor.instance.threads.filter(({ left, right, isBroken }) => left && right && !isBroken).length} threads hold`;
+      },
+    };
+  },
+};
+
+const heal = {
+  name: 'Heal', hint: 'Click on a wound: it closes, and only a scar is left. Wounds with a gap cannot heal.', needsHit: true,
+  begin({ actor, hit }) {
+    return { ...stopped, command: actor.instance.weld({ places: [hit.at] }), says: ({ runs }) => (runs === 0 ? NO_WOUND : 'The wound is closed') };
+  },
+};
+
 const turn = { name: 'Turn', hint: 'Drag to turn the character, scroll to zoom.', needsHit: false, begin: null };
 
 /** In the order of their keys. */
-export const tools = [turn, blade, plane, bore, pull, takeOff];
+export const tools = [turn, blade, plane, bore, pull, takeOff, sew, heal];
