@@ -1,5 +1,5 @@
 // One character in a scene.
-import { SUNDER_IN_BACKGROUND, sunder_blood_flow_options, sunder_bore, sunder_collider, sunder_contact, sunder_cut, sunder_detach, sunder_force_tearing_options, sunder_layer_options, sunder_save_options, sunder_stroke_sampling, sunder_suture, sunder_tear_options, sunder_weld, sunder_wound_mask_options } from '../generated/calls.js';
+import { SUNDER_IN_BACKGROUND, sunder_blood_flow_options, sunder_bore, sunder_collider, sunder_contact, sunder_cut, sunder_detach, sunder_force_tearing_options, sunder_layer_options, sunder_save_options, sunder_stroke_sampling, sunder_suture, sunder_suture_thread, sunder_tear_options, sunder_weld, sunder_wound_mask_options } from '../generated/calls.js';
 import { Hold, Layer, Stroke } from './handles_of_tissue.js';
 import { takeBytes, takeText } from './made_bytes.js';
 import { materialOf } from './materials.js';
@@ -9,6 +9,7 @@ import { PosedMesh } from './posed_mesh.js';
 import { invalidArgument, invalidHandle } from './sunder_error.js';
 import { takeReport, validationFields } from './validation.js';
 
+const NONE = 0xFFFFFFFF;
 const CHANNELS = ['age', 'depth', 'stretch'];
 const contactOf = ({ has_hit, contact }) => (has_hit ? namesOf(contact) : null);
 const flagsOf = (background) => (background ? SUNDER_IN_BACKGROUND : 0);
@@ -188,6 +189,13 @@ export class Instance {
 
   /** { particleCount, pointCount, isAwake }. */
   get tissue() { return namesOf(this.#call('sunder_get_tissue')); }
+  /** The threads of all sutures as they were tied: { left, right, newtons, isBroken }; an end is { mesh, vertex }, or null if it holds nothing any more. */
+  get threads() {
+    const { threads, count } = this.#call('sunder_get_threads');
+    const end = (mesh, vertex) => (mesh === NONE ? null : { mesh, vertex });
+    return this.#calls.memory.readStructs(sunder_suture_thread, threads, count).map((raw) => ({
+      left: end(raw.left_mesh, raw.left_vertex), right: end(raw.right_mesh, raw.right_vertex), newtons: raw.newtons, isBroken: raw.is_broken !== 0 }));
+  }
   /** Pulls tissue to a place. @param at  { mesh, vertex }, or a contact of raycast() */
   hold(at, target, { stiffness = 0 } = {}) {
     const point = this.#point(at);

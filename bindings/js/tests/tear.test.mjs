@@ -89,8 +89,12 @@ test('a weld closes a wound, a bit of it or all, and can be undone', async () =>
   assert.equal(it.digest, open);
   it.suture({ spacing: 0.05, strength: 10 });
   assert.ok(scene.update(0)[0].runs > 0 && it.log.includes('"suture"') && it.digest !== open);
+  assert.ok(it.threads.length > 0);
+  for (const { left, right, newtons, isBroken } of it.threads)
+    assert.ok(left.vertex !== right.vertex && newtons >= 0 && !isBroken);
   it.undo();
   scene.update(0);
+  assert.equal(it.threads.length, 0);
   assert.equal(it.digest, open);
   it.suture({ stiffness: 0 });
   assert.match(scene.update(0)[0].error.message, /stiffness is 0 N\/m/);
