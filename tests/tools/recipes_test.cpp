@@ -11,8 +11,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tissue_recipes.h"  // made of docs/tissue_recipes.md
 #include "tools/picture/recipe_rigs.h"
+#include "tools/recipes/tissue_recipes.h"  // made of docs/tissue_recipes.md
 
 namespace sunder {
 namespace {

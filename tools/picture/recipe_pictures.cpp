@@ -8,12 +8,12 @@
 #include <utility>
 #include <vector>
 
-#include "tissue_recipes.h"  // made of the page
 #include "tools/messages/lines.h"
 #include "tools/messages/messages.h"
 #include "tools/messages/printed.h"
 #include "tools/picture/recipe_rigs.h"
 #include "tools/picture/soft_scene.h"
+#include "tools/recipes/tissue_recipes.h"  // made of the page
 
 namespace sunder::tools {
 namespace {
