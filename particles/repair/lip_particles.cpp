@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "core/internal/ordered.h"
+#include "particles/clusters/band.h"
 #include "particles/clusters/influences.h"
 #include "particles/internal/tolerances.h"
 
@@ -46,15 +47,24 @@ void make_particle(StructureEdit& edit, LipChain& chain, const LipChain::Place& 
   chain.particles.push_back({particle, place.along, half_width, is_small});
 }
 
-/// Lists the small particles that a band made which was not completed.
-void take_up_small_particles(const StructureEdit& edit, LipChain& chain) {
+/// Lists the particles that a band made for the lip which was not completed: this one goes on to
+/// give them members. Large ones that a stroke in progress makes, which small ones replace when it
+/// ends, are left as they are.
+void take_up_particles(const StructureEdit& edit, LipChain& chain) {
   const Structure& structure = edit.structure();
+  const auto range = static_cast<float>(structure.report.range);
+  const Index first_of_tear = structure.tears.done[edit.tear()].particles;
+  const bool is_final = structure.tears.band->is_final;
   for (const LipChain::Place& place : chain.places)
     for (const ParticleMembership& membership : edit.memberships(place.point)) {
       const Particle& particle = structure.particles[membership.particle];
-      if (particle.seed == place.point &&
-          is_small_of_lip(structure, membership.particle, edit.tear(), chain))
-        chain.particles.push_back({membership.particle, place.along, particle.range, true});
+      if (particle.seed != place.point || membership.particle < first_of_tear) continue;
+      const bool is_small = is_small_of_lip(structure, membership.particle, edit.tear(), chain);
+      const Side* side = particle.side_of(edit.tear());
+      const bool is_large =
+          is_final && side != nullptr && *side == chain.side && !(chain.fineness(place, range) > 0);
+      if (is_small || is_large)
+        chain.particles.push_back({membership.particle, place.along, particle.range, is_small});
     }
 }
 
@@ -66,7 +76,7 @@ void make_small(StructureEdit& edit, LipChain& chain, float along) {
     --place;
   const auto range = static_cast<float>(edit.structure().report.range);
   const auto is_near = [&](const LipChain::OfLip& of) {
-    return std::abs(place->along - of.along) < 0.6f * chain.spacing;
+    return of.is_small && std::abs(place->along - of.along) < 0.6f * chain.spacing;
   };
   if (std::abs(place->along - along) <= chain.spacing && chain.fineness(*place, range) > 0 &&
       std::ranges::none_of(chain.particles, is_near))
@@ -76,7 +86,6 @@ void make_small(StructureEdit& edit, LipChain& chain, float along) {
 /// The small particles of both lips of a gap face one another: they divide it from tip to tip, or
 /// begin at the only tip that is near.
 void make_small_particles(StructureEdit& edit, LipChain& chain) {
-  take_up_small_particles(edit, chain);
   const float end = chain.places.back().along;
   const auto most = kNearTipRanges * static_cast<float>(edit.structure().report.range);
   const float last = std::isfinite(chain.length) ? 0.5f * chain.length : most;
@@ -88,7 +97,7 @@ void make_small_particles(StructureEdit& edit, LipChain& chain) {
     // One more between the first and the tip, where the gap closes.
     const LipChain::Place& nearest = is_front ? chain.places.front() : chain.places.back();
     const auto is_there = [&](const LipChain::OfLip& of) {
-      return edit.structure().particles[of.particle].seed == nearest.point;
+      return of.is_small && edit.structure().particles[of.particle].seed == nearest.point;
     };
     if (from.tip != kNone && from.distance < 0.25f * chain.spacing &&
         std::ranges::none_of(chain.particles, is_there))
@@ -130,6 +139,7 @@ bool is_small_of_lip(const Structure& structure, Index particle, Index tear,
 }
 
 void make_lip_particles(StructureEdit& edit, LipChain& chain) {
+  take_up_particles(edit, chain);
   if (chain.spacing > 0) make_small_particles(edit, chain);
   const auto range = static_cast<float>(edit.structure().report.range);
   const bool is_short = chain.depth < 0.5f * range;

@@ -51,6 +51,10 @@ TEST_F(InfoCommand, unknown_words_are_named_with_what_they_may_stand_for) {
   EXPECT_EQ(error_of({"--verison"}), "sunder has no option '--verison'; did you mean '--version'?");
   EXPECT_EQ(error_of({"tear", model(), "--servr", "Neck", "-o", path("x.glb")}),
             "sunder tear has no option '--servr'; did you mean '--sever'?");
+  EXPECT_EQ(
+      error_of({"tear", model(), "--perforation=holes.json"})
+          .find("sunder tear has no option '--perforation': a perforation shows only where force"),
+      0u);
   EXPECT_EQ(error_of({"info", model(), "--xyz=1"}), "sunder info has no option '--xyz'");
   EXPECT_EQ(error_of({"info", model(), "more"}), "sunder info: one argument too many: 'more'");
 }

@@ -226,6 +226,47 @@ TEST_F(OpenCommand, walls_shut_the_wound) {
   }
 }
 
+/// Stitches are closed tubes in the file, which stay at their lips in other poses.
+TEST_F(OpenCommand, threads_of_sutures_are_written) {
+  const std::string log = write("one.json", kOneTear);
+  const LoadedCharacter source = *load_character(model());
+  for (const std::string form : {"--open", "--open=baked"}) {
+    SCOPED_TRACE(form);
+    const LoadedCharacter sewn =
+        torn(model(), log, "open.glb", {form, "--suture", "all,spacing=0.04"});
+    ASSERT_TRUE(sewn.character);
+    expect_valid("open.glb");
+    EXPECT_GT(read_json("open.glb.json")["open"]["thread_faces"].get<int>(), 100);
+    EXPECT_EQ(materials_of("open.glb").back()["name"], "Threads");
+    EXPECT_EQ(count_topology(*sewn.character)->boundary_edges,
+              count_topology(*source.character)->boundary_edges);
+    const std::uint32_t m = mesh_named(*sewn.character, "Cactus");
+    const Mesh& mesh = sewn.character->meshes[m];
+    const auto threads = static_cast<std::uint32_t>(mesh.submeshes.size()) - 1;
+    std::vector<bool> is_thread(mesh.vertex_count(), false);
+    for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t)
+      for (const std::uint32_t vertex : mesh.triangles[t])
+        if (mesh.triangle_submesh[t] == threads) is_thread[vertex] = true;
+    EXPECT_GT(std::ranges::count(is_thread, true), 100);
+    const ModelPose pose = *make_pose(*sewn.character, ClipPose{std::uint32_t{0}, 1.3});
+    const std::vector<Vec3f> places = posed(*sewn.character, m, pose);
+    double farthest = 0;
+    for (std::uint32_t v = 0; v < places.size(); ++v) {
+      if (!is_thread[v]) continue;
+      double nearest = 1;
+      for (std::uint32_t other = 0; other < places.size(); ++other)
+        if (!is_thread[other])
+          nearest = std::min(nearest, static_cast<double>((places[v] - places[other]).norm()));
+      farthest = std::max(farthest, nearest);
+    }
+    EXPECT_LT(farthest, 0.03);  // About a cell of the cactus.
+  }
+  const LoadedCharacter broken =
+      torn(model(), log, "open.glb", {"--open", "--suture", "all,spacing=0.04,strength=1e-9"});
+  ASSERT_TRUE(broken.character);
+  EXPECT_EQ(read_json("open.glb.json")["open"]["thread_faces"].get<int>(), 0);
+}
+
 /// Where wounds cross, four lips end: the ground between them is shut too.
 TEST_F(OpenCommand, walls_shut_wounds_that_cross) {
   const std::string log = write("cross.json", R"({"sunder_operations": 1, "operations": [

@@ -148,6 +148,7 @@ TEST_F(TissueFieldCommand, wrong_fields_are_explained) {
     const char* told;
   };
   for (const Case& of : {Case{"strength=bone:Trunk1", 2, "only where force tears"},
+                         {"perforation=bone:Trunk1", 2, "only where force tears"},
                          {"toughness=bone:Trunk1", 2, "only where force tears"},
                          {"weight=bone:Trunk1", 2, "stiffness, tension or thickness"},
                          {"tension", 2, "texture:FILE.png"},

@@ -139,6 +139,25 @@ TEST_F(WoundMaskCommand, pictures_show_threads_that_hold) {
   EXPECT_EQ(grey_in("broken.png", {"--suture", "all,spacing=0.04,strength=1e-9"}), 0);
 }
 
+/// A wound that threads hold shut keeps its blood.
+TEST_F(WoundMaskCommand, pictures_show_blood_at_sewn_wounds) {
+  const std::string log = write("long.json", R"({"sunder_operations": 1, "operations": [
+    {"op": "tear", "pose": {"clip": 0, "time": 0.8}, "stroke": [
+      {"base": [0.03, 1.03, 0.48], "tip": [-0.1, 0.98, 0.06]},
+      {"base": [-0.07, 1.35, 0.47], "tip": [-0.19, 1.3, 0.04]},
+      {"base": [-0.16, 1.67, 0.46], "tip": [-0.29, 1.62, 0.03]}]}]})");
+  ASSERT_EQ(run_sunder({"tear", model(), "--ops", log, "-o", path("torn.glb"), "--picture",
+                        path("sewn.png"), "--suture", "all,spacing=0.03"})
+                .exit_code,
+            0);
+  const auto pixels = test::read_png(path("sewn.png"));
+  ASSERT_TRUE(pixels);
+  const auto is_blood = [](const test::Pixels::Color& color) {
+    return color[0] > 60 && color[0] < 200 && color[1] < color[0] / 2 && color[2] < color[0] / 2;
+  };
+  EXPECT_GT(std::ranges::count_if(pixels->colors, is_blood), 2000);
+}
+
 TEST_F(WoundMaskCommand, options_out_of_range_are_refused) {
   for (const char* const size : {"0", "16385"})
     EXPECT_EQ(tear("no", {"--wound-mask", path("no.png"), "--wound-mask-size", size}).exit_code, 2);

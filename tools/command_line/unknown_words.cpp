@@ -9,6 +9,16 @@
 namespace sunder::tools {
 namespace {
 
+/// What is often looked for, and why no verb has it.
+struct AbsentOption {
+  const char* name;
+  const char* reason;
+};
+constexpr AbsentOption kAbsentOptions[] = {
+    {"--perforation",
+     "a perforation shows only where force tears, which this command does not do; a program can "
+     "tear by force (tear_overstretched())"}};
+
 std::string advice(const std::string& wanted, const std::vector<std::string>& names) {
   const std::vector<std::string> near = nearest_names(wanted, names);
   return near.empty() ? "" : "; did you mean " + listed_names(near) + "?";
@@ -27,6 +37,8 @@ std::string unknown_option(const std::string& word, const ListedVerb& verb) {
   const std::string command = verb.name.empty() ? "sunder" : "sunder " + verb.name;
   if (!word.starts_with('-')) return command + ": one argument too many: '" + word + "'";
   const std::string option = word.substr(0, word.find('='));
+  for (const AbsentOption& absent : kAbsentOptions)
+    if (option == absent.name) return command + " has no option '" + option + "': " + absent.reason;
   std::vector<std::string> names;
   for (const ListedOption& listed : verb.options)
     names.insert(names.end(), listed.names.begin(), listed.names.end());

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "tools/model/history.h"
+#include "tools/open/wound_threads.h"
 #include "tools/picture/open_lips.h"
 #include "tools/picture/taper_wounds.h"
 
@@ -106,6 +107,10 @@ Result<Opening> measure_opening(std::shared_ptr<const Character> character,
   std::vector<DeformedMesh> closed = opening.closed;  // Meshes may lack normals.
   mend_normals(instance.character(), closed);
   opening.walls = make_wound_walls(*instance.model(), model->wounds, closed, opening.open);
+  std::vector<DeformedMesh> open = opening.open;
+  mend_normals(instance.character(), open);
+  opening.threads =
+      make_wound_threads(*instance.model(), thread_loads(*instance.body()), closed, open);
   opening.course = few_moments(shares(moments));
   for (const Wound& wound : model->wounds) {
     opening.gaps.push_back(widest_gap(instance, wound));

@@ -26,6 +26,7 @@ struct Opening {
   std::vector<double> gaps;                ///< Of each wound: between points that were one, metres.
   double widest_gap = 0;                   ///< The greatest of them.
   WoundWalls walls;                        ///< Between the lips.
+  WoundWalls threads;                      ///< Across them, of sutures.
 };
 
 /// Tears a character of soft tissue, and lets its lips open until nothing moves.

@@ -41,7 +41,7 @@ Status read_factor(const std::string& name, TissueField& field) {
     field.factor = name;
     return {};
   }
-  if (find_field(known, name) != nullptr)
+  if (find_field(known, name) != nullptr || name == "perforation")
     return Status::failure(StatusCode::invalid_argument, kNone,
                            "'%.40s' shows only where force tears, which this command does not do; "
                            "expected stiffness, tension or thickness",

@@ -10,6 +10,7 @@ namespace sunder::tools {
 namespace {
 
 constexpr const char* kWallName = "Wound";
+constexpr const char* kThreadName = "Threads";
 constexpr std::size_t kInfluences = 4;  ///< Per vertex, for which room is made.
 
 /// Appends a vertex of a wall to a mesh and to its poses.
@@ -30,17 +31,18 @@ void append_wall_vertex(const WoundWalls::Vertex& of, bool has_own_look, const B
   }
 }
 
-}  // namespace
-
-Status add_wound_walls(const WallMaterial& material_of, Opening& opening, Character& character) {
-  for (std::uint32_t m = 0; m < opening.walls.meshes.size(); ++m) {
-    const WoundWalls::OfMesh& walls = opening.walls.meshes[m];
+/// Appends parts to a torn character and to the opening's meshes.
+/// @param name  of their submeshes.
+Status add_parts(const WoundWalls& parts, const char* name, const WallMaterial& material_of,
+                 Opening& opening, Character& character) {
+  for (std::uint32_t m = 0; m < parts.meshes.size(); ++m) {
+    const WoundWalls::OfMesh& walls = parts.meshes[m];
     if (walls.triangles.empty()) continue;
     Mesh& mesh = character.meshes[m];
     const std::uint32_t first = mesh.vertex_count();
     if (opening.closed[m].positions.size() != first)
       return Status::failure(StatusCode::size_mismatch, m,
-                             "mesh %u: the walls are of %zu vertices, the mesh has %u", m,
+                             "mesh %u: the parts are of %zu vertices, the mesh has %u", m,
                              opening.closed[m].positions.size(), first);
     const Result<BindSpace> bind = BindSpace::create(character, m, opening.pose);
     if (!bind) return bind.error();
@@ -51,7 +53,7 @@ Status add_wound_walls(const WallMaterial& material_of, Opening& opening, Charac
       const bool is_lips = material == mesh.submeshes[vertex.submesh].material;
       const auto [entry, is_new] =
           submesh_of.try_emplace(material, static_cast<std::uint32_t>(mesh.submeshes.size()));
-      if (is_new) mesh.submeshes.push_back({kWallName, material});
+      if (is_new) mesh.submeshes.push_back({name, material});
       append_wall_vertex(vertex, !is_lips, *bind, mesh, opening.closed[m], opening.open[m]);
     }
     for (Triangle triangle : walls.triangles) {
@@ -62,6 +64,17 @@ Status add_wound_walls(const WallMaterial& material_of, Opening& opening, Charac
     }
   }
   return {};
+}
+
+}  // namespace
+
+Status add_wound_walls(const WallMaterial& material_of, Opening& opening, Character& character) {
+  return add_parts(opening.walls, kWallName, material_of, opening, character);
+}
+
+Status add_wound_threads(std::uint32_t material, Opening& opening, Character& character) {
+  const WallMaterial of_threads = [material](std::uint32_t, std::uint32_t) { return material; };
+  return add_parts(opening.threads, kThreadName, of_threads, opening, character);
 }
 
 }  // namespace sunder::tools

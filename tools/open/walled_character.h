@@ -2,6 +2,7 @@
 
 #include <sunder/core/character.h>
 
+#include <cstdint>
 #include <functional>
 
 #include "tools/open/opening.h"
@@ -18,5 +19,9 @@ using WallMaterial = std::function<std::uint32_t(std::uint32_t mesh, std::uint32
 /// @return size_mismatch; the failures of compute_palette().
 [[nodiscard]] Status add_wound_walls(const WallMaterial& material_of, Opening& opening,
                                      Character& character);
+
+/// Likewise its threads, of a material of their own.
+[[nodiscard]] Status add_wound_threads(std::uint32_t material, Opening& opening,
+                                       Character& character);
 
 }  // namespace sunder::tools

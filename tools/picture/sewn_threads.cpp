@@ -12,9 +12,7 @@ namespace sunder::tools {
 namespace {
 
 constexpr float kReach = 0.9f, kRadius = 0.13f;  ///< Of a stitch, in thicknesses.
-constexpr std::size_t kThreadSides = 6;
-/// Silk, linear RGB.
-const Vec4f kThreadColor(0.012f, 0.012f, 0.016f, 1.0f);
+constexpr std::size_t kThreadSides = ThreadTube::kSides;
 
 /// Where the ends of threads are, and which way the surface lies from there.
 class ThreadEnds {
@@ -73,53 +71,50 @@ class ThreadEnds {
   std::map<std::uint32_t, std::vector<Corner>> fans_;
 };
 
-void add_tube(const std::vector<Vec3f>& line, const Vec3f& normal, float radius,
-              std::uint32_t material, RenderScene& scene) {
-  std::vector<std::array<Vec3f, kThreadSides>> rings, facings;
+/// Rings around a line.
+void add_tube(const std::vector<Vec3f>& line, const Vec3f& normal, float radius, ThreadTube& tube) {
   for (std::size_t i = 0; i < line.size(); ++i) {
     const Vec3f along = line[std::min(i + 1, line.size() - 1)] - line[i > 0 ? i - 1 : 0];
     const Vec3f side = along.cross(normal).normalized(), up = side.cross(along).normalized();
-    std::array<Vec3f, kThreadSides> ring, facing;
     for (std::size_t k = 0; k < kThreadSides; ++k) {
       const auto angle =
           static_cast<float>(2 * std::numbers::pi * static_cast<double>(k) / kThreadSides);
-      facing[k] = std::cos(angle) * side + std::sin(angle) * up;
-      ring[k] = line[i] + radius * facing[k];
+      tube.normals.emplace_back(std::cos(angle) * side + std::sin(angle) * up);
+      tube.places.emplace_back(line[i] + radius * tube.normals.back());
     }
-    rings.push_back(ring);
-    facings.push_back(facing);
   }
-  const auto add = [&](std::array<std::array<std::size_t, 2>, 3> corners) {
-    RenderTriangle triangle;
-    triangle.material = material;
-    for (std::size_t c = 0; c < 3; ++c) {
-      triangle.corners[c] = rings[corners[c][0]][corners[c][1]];
-      triangle.normals[c] = facings[corners[c][0]][corners[c][1]];
-      triangle.uvs[c] = Vec2f::Zero();
-      triangle.tints[c].setOnes();
-    }
-    scene.triangles.push_back(triangle);
-  };
-  for (std::size_t i = 0; i + 1 < line.size(); ++i)
-    for (std::size_t k = 0; k < kThreadSides; ++k) {
-      const std::size_t next = (k + 1) % kThreadSides;
-      add({{{i, k}, {i + 1, k}, {i, next}}});
-      add({{{i, next}, {i + 1, k}, {i + 1, next}}});
-    }
 }
 
 }  // namespace
 
-void add_threads(const TornModel& torn, std::span<const DeformedMesh> open,
-                 std::span<const ThreadLoad> loads, double thickness, RenderScene& scene) {
+std::vector<Triangle> ThreadTube::triangles() const {
+  std::vector<Triangle> triangles;
+  const auto sides = static_cast<std::uint32_t>(kSides);
+  for (std::uint32_t ring = 0; ring + sides < places.size(); ring += sides)
+    for (std::uint32_t k = 0; k < sides; ++k) {
+      const std::uint32_t here = ring + k, next = ring + (k + 1) % sides;
+      triangles.push_back({here, here + sides, next});
+      triangles.push_back({next, here + sides, next + sides});
+    }
+  if (places.empty()) return triangles;
+  const auto last = static_cast<std::uint32_t>(places.size()) - sides;
+  for (std::uint32_t k = 1; k + 1 < sides; ++k) {  // both ends are closed
+    triangles.push_back({0, k, k + 1});
+    triangles.push_back({last, last + k + 1, last + k});
+  }
+  return triangles;
+}
+
+std::vector<ThreadTube> thread_tubes(const TornModel& torn, std::span<const DeformedMesh> posed,
+                                     std::span<const ThreadLoad> loads, double thickness) {
   const std::span<const SutureThread> threads = threads_of(torn);
-  if (threads.empty()) return;
+  std::vector<ThreadTube> tubes;
+  if (threads.empty()) return tubes;
   const auto reach = kReach * static_cast<float>(thickness),
              radius = kRadius * static_cast<float>(thickness);
-  const ThreadEnds ends(torn, open);
-  scene.materials.emplace_back().factor = kThreadColor;
-  const auto material = static_cast<std::uint32_t>(scene.materials.size() - 1);
+  const ThreadEnds ends(torn, posed);
   for (std::size_t i = 0; i < threads.size(); ++i) {
+    ThreadTube& tube = tubes.emplace_back(ThreadTube{threads[i].left, threads[i].right, {}, {}});
     if (i < loads.size() && loads[i].is_broken) continue;
     const auto left = ends.at(threads[i].left), right = ends.at(threads[i].right);
     if (!left || !right) continue;
@@ -131,8 +126,26 @@ void add_threads(const TornModel& torn, std::span<const DeformedMesh> open,
     const Vec3f lift = radius * normal;
     add_tube({in_left - lift, in_left + lift, left->place + lift, right->place + lift,
               in_right + lift, in_right - lift},
-             normal, radius, material, scene);
+             normal, radius, tube);
   }
+  return tubes;
+}
+
+void add_threads(std::span<const ThreadTube> threads, RenderScene& scene) {
+  if (threads.empty()) return;
+  scene.materials.emplace_back().factor = kThreadColor;
+  for (const ThreadTube& tube : threads)
+    for (const Triangle& corners : tube.triangles()) {
+      RenderTriangle triangle;
+      triangle.material = static_cast<std::uint32_t>(scene.materials.size() - 1);
+      for (std::size_t c = 0; c < 3; ++c) {
+        triangle.corners[c] = tube.places[corners[c]];
+        triangle.normals[c] = tube.normals[corners[c]];
+        triangle.uvs[c] = Vec2f::Zero();
+        triangle.tints[c].setOnes();
+      }
+      scene.triangles.push_back(triangle);
+    }
 }
 
 }  // namespace sunder::tools

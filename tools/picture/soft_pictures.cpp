@@ -1,4 +1,5 @@
-// Draws the pictures of docs/particles.md and prints its measurements: soft_pictures FOLDER.
+// Draws the pictures of docs/particles.md and docs/tissue_recipes.md, and prints their
+// measurements: soft_pictures FOLDER.
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +8,7 @@
 
 #include "tools/messages/lines.h"
 #include "tools/messages/printed.h"
+#include "tools/picture/recipe_pictures.h"
 #include "tools/picture/soft_scene.h"
 
 namespace sunder::tools {
@@ -137,4 +139,5 @@ int main(int count, char** arguments) {
   draw_pull(folder, true);
   draw_gap(folder);
   draw_running(folder);
+  draw_recipes(folder);
 }

@@ -13,6 +13,7 @@
 #include "tools/messages/messages.h"
 #include "tools/picture/model_looks.h"
 #include "tools/picture/open_lips.h"
+#include "tools/picture/rims.h"
 #include "tools/picture/torn_scene.h"
 #include "tools/render/trace.h"
 
@@ -37,13 +38,28 @@ T check(Result<T> result) {
   return std::move(*result);
 }
 
-CharacterAssetOptions soft_options(const std::vector<SoftMaterial>& materials, double range) {
+SoftTissue soft_tissue(const std::vector<SoftMaterial>& materials, double range) {
+  SoftTissue tissue;
+  tissue.materials = materials;
+  tissue.decomposition.range = range;
+  return tissue;
+}
+
+CharacterAssetOptions soft_options(const SoftTissue& tissue) {
   CharacterAssetOptions options;
   options.unit_length = true;
-  options.soft.emplace();
-  options.soft->materials = materials;
-  options.soft->decomposition.range = range;
+  options.soft = tissue;
   return options;
+}
+
+std::shared_ptr<const Character> cactus() {
+  static const auto made = std::make_shared<const Character>(make_cactus());
+  return made;
+}
+
+PoseSpec clip_pose(const Character& character) {
+  return ClipPose{std::uint32_t{0},
+                  kClipFraction * static_cast<double>(character.clips[0].duration)};
 }
 
 /// Successive particles get colours that differ much.
@@ -60,12 +76,14 @@ Vec4f color_of(std::uint32_t particle) {
 }  // namespace
 
 SoftScene::SoftScene(const std::vector<SoftMaterial>& materials, double range)
-    : source(std::make_shared<const Character>(make_cactus())),
-      instance(check(CharacterInstance::create(source, soft_options(materials, range)))),
+    : SoftScene(cactus(), soft_tissue(materials, range), clip_pose(*cactus())) {}
+
+SoftScene::SoftScene(std::shared_ptr<const Character> character, const SoftTissue& tissue,
+                     const PoseSpec& spec)
+    : source(std::move(character)),
+      instance(check(CharacterInstance::create(source, soft_options(tissue)))),
       rest(check(bind_pose(*source))),
-      pose(check(make_pose(
-          *source, ClipPose{std::uint32_t{0},
-                            kClipFraction * static_cast<double>(source->clips[0].duration)}))),
+      pose(check(make_pose(*source, spec))),
       diagonal_(bounds_of(*source, check(pose_model(*source, rest))).size().norm()) {
   check(instance.prepare_to_tear());
   draw_frame(0);
@@ -85,8 +103,8 @@ void SoftScene::tear(const std::vector<Vec2d>& path) {
   changes.push_back(std::move(change));
 }
 
-Result<ForceTearingReport> SoftScene::tear_overstretched() {
-  Result<ForceTearingReport> report = instance.tear_overstretched();
+Result<ForceTearingReport> SoftScene::tear_overstretched(const ForceTearingOptions& options) {
+  Result<ForceTearingReport> report = instance.tear_overstretched(options);
   draw_frame(0);
   return report;
 }
@@ -154,12 +172,62 @@ void SoftScene::draw(const std::string& png, const ViewFrame& frame, const Vec3d
   const BloodCovers blood = check(BloodCovers::create(*instance.model(), pose, looks, 0));
   const RenderScene scene = make_torn_scene({*instance.model(), closed, open, wounds, blood}, looks,
                                             kThickness * diagonal_);
+  write(png, scene, frame, centre, radius);
+}
+
+void SoftScene::write(const std::string& png, const RenderScene& scene, const ViewFrame& frame,
+                      const Vec3d& centre, double radius) {
   Camera camera;
   camera.focal_point = centre;
   camera.up = frame.up;
   camera.eye = centre + radius / std::tan(camera.view_angle_degrees / 2 * std::numbers::pi / 180) *
                             frame.towards_eye;
   check(write_png(png, trace(scene, camera, {kWidth, kHeight})));
+}
+
+void SoftScene::draw_sheet(const std::string& png, const ViewFrame& frame, const Vec3d& centre,
+                           double radius, const Sheet& sheet) {
+  const ModelLooks looks = check(ModelLooks::create(nullptr));
+  RenderScene scene = looks.begin_scene();
+  const std::vector<DeformedMesh> outer = displaced();
+  std::vector<DeformedMesh> inner = outer;
+  std::uint32_t points = 0;
+  for (std::uint32_t m = 0; m < outer.size(); ++m) {
+    const Mesh& mesh = instance.character().meshes[m];
+    looks.add_mesh(mesh, outer[m], {}, scene);
+    for (std::size_t v = 0; v < outer[m].positions.size(); ++v)
+      inner[m].positions[v] -= static_cast<float>(sheet.thickness) * outer[m].normals[v];
+    Mesh lining = mesh;
+    lining.color_sets.assign(1, std::vector<Vec4f>(mesh.positions.size(), sheet.inner));
+    looks.add_mesh(lining, inner[m], {}, scene);
+    points = std::max(points, mesh.vertex_count());
+  }
+  // Strips between both sides along all borders.
+  Mesh strips;
+  strips.submeshes.push_back({"border", kNone});
+  DeformedMesh at;
+  for (const RimEdge& edge : find_borders_at(
+           *instance.model(), std::vector<bool>(particles().positions().size(), true))) {
+    const auto first = static_cast<std::uint32_t>(at.positions.size());
+    const DeformedMesh& over = outer[edge.mesh];
+    const Vec3f along = over.positions[edge.b] - over.positions[edge.a];
+    const Vec3f facing = along.cross(over.normals[edge.a]);
+    for (const std::uint32_t vertex : {edge.a, edge.b})
+      for (const DeformedMesh* side : {&over, &std::as_const(inner)[edge.mesh]}) {
+        at.positions.push_back(side->positions[vertex]);
+        at.normals.push_back(facing.normalized());  // Zero for an edge without length.
+      }
+    strips.triangles.push_back({first, first + 1, first + 2});
+    strips.triangles.push_back({first + 1, first + 3, first + 2});
+  }
+  strips.positions = at.positions;
+  strips.triangle_submesh.assign(strips.triangles.size(), 0);
+  strips.color_sets.assign(1, std::vector<Vec4f>(strips.positions.size(), sheet.inner));
+  looks.add_mesh(strips, at, {}, scene);
+  if (sheet.filling != nullptr)
+    looks.add_mesh(*sheet.filling, {sheet.filling->positions, sheet.filling->normals, {}}, {},
+                   scene);
+  write(png, scene, frame, centre, radius);
 }
 
 void SoftScene::draw_particles(const std::string& png) const {

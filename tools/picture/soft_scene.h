@@ -8,20 +8,22 @@
 
 #include "tools/model/posed_model.h"
 #include "tools/picture/view.h"
+#include "tools/render/render_scene.h"
 
 namespace sunder::tools {
 
-/// The cactus of the demo in a pose of its clip, as soft tissue that can be torn, pulled and drawn.
-/// A failure ends the program.
+/// A character of soft tissue that can be torn, pulled and drawn. A failure ends the program.
 class SoftScene {
  public:
-  ///
+  /// The cactus of the demo in a pose of its clip.
   /// @param range  of the particles, as a fraction of the diagonal.
   SoftScene(const std::vector<SoftMaterial>& materials, double range);
+  SoftScene(std::shared_ptr<const Character> character, const SoftTissue& tissue,
+            const PoseSpec& pose);
 
   /// Tears along places at rest, with blades from the front.
   void tear(const std::vector<Vec2d>& path);
-  Result<ForceTearingReport> tear_overstretched();
+  Result<ForceTearingReport> tear_overstretched(const ForceTearingOptions& options = {});
   void step();
   /// Steps until nothing moves, or for ten seconds. @return number of steps.
   int step_until_still();
@@ -45,6 +47,15 @@ class SoftScene {
   /// @param radius  of the visible part, metres.
   void draw(const std::string& png, const ViewFrame& frame, const Vec3d& centre, double radius);
   void draw_particles(const std::string& png) const;
+  /// As draw(), for a thing that is no flesh: a sheet of a thickness, which the second colour shows
+  /// from behind and at borders.
+  struct Sheet {
+    double thickness = 0.001;       ///< Metres.
+    Vec4f inner = Vec4f::Ones();    ///< Linear RGBA.
+    const Mesh* filling = nullptr;  ///< Optional: drawn too, with its colours; it does not move.
+  };
+  void draw_sheet(const std::string& png, const ViewFrame& frame, const Vec3d& centre,
+                  double radius, const Sheet& sheet);
 
   std::shared_ptr<const Character> source;
   CharacterInstance instance;
@@ -53,6 +64,8 @@ class SoftScene {
 
  private:
   void draw_frame(double seconds);
+  static void write(const std::string& png, const RenderScene& scene, const ViewFrame& frame,
+                    const Vec3d& centre, double radius);
 
   double diagonal_ = 0;
 };

@@ -230,7 +230,8 @@ Status draw_torn(const LoadedCharacter& loaded, std::span<const Operation> histo
   if (!blood) return blood.error();
   RenderScene scene =
       make_torn_scene({torn, *closed, open, wounds, *blood}, *looks, kThickness * diagonal);
-  add_threads(torn, open, thread_loads(*instance.body()), kThickness * diagonal, scene);
+  add_threads(thread_tubes(torn, open, thread_loads(*instance.body()), kThickness * diagonal),
+              scene);
   add_surfaces(*beside, *looks, scene);
   if (cut == nullptr)
     frame = seen_wound(scene, frame, png, messages);  // A cut is seen along its plane.

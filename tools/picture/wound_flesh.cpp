@@ -148,7 +148,8 @@ class SectionFinder {
 }  // namespace
 
 WoundFlesh::WoundFlesh(const TornModel& torn, std::span<const Wound> wounds,
-                       const std::vector<DeformedMesh>& closed) {
+                       const std::vector<DeformedMesh>& closed)
+    : is_sewn_(!threads_of(torn).empty()) {
   SectionFinder finder(torn, wounds);
   finder.find(sections_, spans_);
   lip_vertices_ = finder.lip_vertices();
@@ -362,8 +363,9 @@ void WoundFlesh::add(const std::vector<DeformedMesh>& closed, const std::vector<
     for (const std::uint32_t i : {0u, static_cast<std::uint32_t>(kAcrossInPictures)})
       scene.lips.push_back(
           {ground.open[ground.at({span.a, i})], ground.open[ground.at({span.b, i})]});
-  // Fresh lips are pale: blood comes as they open.
-  scene.blood_reach = std::min(kBloodOfLength * length_, 2 * ground.widest);
+  // Fresh lips are pale: blood comes as they open. Those that threads hold shut were open.
+  scene.blood_reach = kBloodOfLength * length_;
+  if (!is_sewn_) scene.blood_reach = std::min(scene.blood_reach, 2 * ground.widest);
 }
 
 std::vector<WoundFlesh::Bed> WoundFlesh::make_beds(const std::vector<DeformedMesh>& closed,

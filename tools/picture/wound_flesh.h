@@ -107,6 +107,7 @@ class WoundFlesh {
   /// Ends of spans, 0 or 1, where wounds meet, per place.
   std::vector<std::vector<std::array<std::uint32_t, 2>>> joints_;
   float length_ = 0;  ///< Of all spans, metres.
+  bool is_sewn_ = false;
 };
 
 }  // namespace sunder::tools

@@ -10,6 +10,7 @@
 #include "tools/model/name_advice.h"
 #include "tools/open/opened_character.h"
 #include "tools/open/walled_character.h"
+#include "tools/picture/sewn_threads.h"
 #include "tools/tear/blood_of_run.h"
 #include "tools/tear/flesh_materials.h"
 #include "tools/value_of.h"
@@ -108,6 +109,9 @@ Result<WrittenModel> written_model(const TearRun& run) {
   if (gets_flesh) flesh->give_to_fillings(walled);
   std::vector<AppendedMaterial> appended;
   if (is_open || gets_flesh) appended = flesh->appended();
+  const bool has_threads = is_open && run.opening->threads.triangle_count() > 0;
+  const std::uint32_t threads = flesh->first_painted(appended.size());
+  if (has_threads) appended.push_back({"Threads", kThreadColor, 0.0f, 0.6f, false});
   give_blood(run, flesh->first_painted(appended.size()), walled);
   if (is_open) {
     Opening opening = *run.opening;
@@ -116,6 +120,8 @@ Result<WrittenModel> written_model(const TearRun& run) {
     };
     if (const Status status = add_wound_walls(wall_material, opening, walled); !status)
       return status;
+    if (has_threads)
+      if (const Status status = add_wound_threads(threads, opening, walled); !status) return status;
     Result<Character> open =
         run.request.open == OpenLips::baked
             ? with_open_positions(std::move(walled), opening)
@@ -133,7 +139,8 @@ Json open_lips_json(const TearRun& run) {
                {"widest_gap", run.opening->widest_gap},
                {"gaps", run.opening->gaps},
                {"seconds", run.opening->course.back().seconds},
-               {"wall_faces", run.opening->walls.triangle_count()}};
+               {"wall_faces", run.opening->walls.triangle_count()},
+               {"thread_faces", run.opening->threads.triangle_count()}};
   if (is_morph) json["morph_target"] = kOpenTarget;
   return json;
 }

@@ -16,6 +16,20 @@ namespace Sunder
       }
     }
 
+    /// <summary>The threads of all sutures, in the order in which they were tied.</summary>
+    public SutureThread[] Threads
+    {
+      get
+      {
+        SutureThread* threads;
+        uint count;
+        Check(NativeCalls.sunder_get_threads(SceneNumber, Id, &threads, &count));
+        var copied = new SutureThread[count];
+        for (uint i = 0; i < count; ++i) copied[i] = threads[i];
+        return copied;
+      }
+    }
+
     /// <summary>The point of the surface at a vertex; null: it has none any more.</summary>
     public uint? GetPoint(int mesh, int vertex)
     {

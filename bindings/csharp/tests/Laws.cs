@@ -70,6 +70,7 @@ namespace Sunder.Tests
       command = whole.Suture(suture);
       scene.Update(0);
       Expect.That(command.Result.Runs > 0 && whole.Digest != unsewn, "a suture");
+      Expect.That(whole.Threads.Length >= command.Result.Runs && whole.Threads[0].LeftVertex != whole.Threads[0].RightVertex, "threads");
       whole.Undo();
       scene.Update(0);
       Expect.Equal(whole.Digest, unsewn, "undone");

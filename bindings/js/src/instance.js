@@ -86,12 +86,6 @@ export class Instance {
     if (places) Object.assign(fields, { places: flat(places, 'places'), place_count: places.length });
     return this.#submit('sunder_submit_suture', fields, flagsOf(background));
   }
-  /** The threads of all sutures, in the order in which they were tied: { left, right, newtons, isBroken }; an end that holds nothing any more is null. */
-  get threads() {
-    const { threads, count } = this.#call('sunder_get_threads'), end = (mesh, vertex) => (mesh === NONE || vertex === NONE ? null : { mesh, vertex });
-    return this.#calls.memory.readStructs(sunder_suture_thread, threads, count).map((thread) => ({
-      left: end(thread.left_mesh, thread.left_vertex), right: end(thread.right_mesh, thread.right_vertex), newtons: thread.newtons, isBroken: thread.is_broken !== 0 }));
-  }
   /** Takes a connected piece off. @param piece  { mesh, triangle } or { point, bone }; its Result has the piece */
   detach({ bone, ...options }) {
     const fields = fieldsOf(sunder_detach, options);
@@ -195,6 +189,13 @@ export class Instance {
 
   /** { particleCount, pointCount, isAwake }. */
   get tissue() { return namesOf(this.#call('sunder_get_tissue')); }
+  /** The threads of all sutures as they were tied: { left, right, newtons, isBroken }; an end is { mesh, vertex }, or null if it holds nothing any more. */
+  get threads() {
+    const { threads, count } = this.#call('sunder_get_threads');
+    const end = (mesh, vertex) => (mesh === NONE ? null : { mesh, vertex });
+    return this.#calls.memory.readStructs(sunder_suture_thread, threads, count).map((raw) => ({
+      left: end(raw.left_mesh, raw.left_vertex), right: end(raw.right_mesh, raw.right_vertex), newtons: raw.newtons, isBroken: raw.is_broken !== 0 }));
+  }
   /** Pulls tissue to a place. @param at  { mesh, vertex }, or a contact of raycast() */
   hold(at, target, { stiffness = 0 } = {}) {
     const point = this.#point(at);

@@ -95,6 +95,7 @@ test('a weld closes a wound, a bit of it or all, and can be undone', async () =>
     assert.ok(left.mesh === right.mesh && left.vertex !== right.vertex && newtons >= 0 && !isBroken);
   it.undo();
   scene.update(0);
+  assert.equal(it.threads.length, 0);
   assert.equal(it.digest, open);
   it.suture({ stiffness: 0 });
   assert.match(scene.update(0)[0].error.message, /stiffness is 0 N\/m/);

@@ -178,11 +178,13 @@ export interface WeldOptions {
   /** How far from these places along the wound, metres; 0: to its ends. */
   reach?: number; background?: boolean;
 }
-/** A thread of a suture. An end that holds nothing any more is null. */
+/** A thread of a suture; an end is null if it holds nothing any more. */
 export interface SutureThread {
-  left: { mesh: number; vertex: number } | null; right: { mesh: number; vertex: number } | null;
+  left: { mesh: number; vertex: number } | null;
+  right: { mesh: number; vertex: number } | null;
   /** With which it pulled its lips together in the last update. */
-  newtons: number; isBroken: boolean;
+  newtons: number;
+  isBroken: boolean;
 }
 export interface SutureOptions extends WeldOptions {
   /** Between threads along the wound, metres. */
@@ -300,7 +302,6 @@ export class Instance {
   drill(bore: BoreOptions): Command;
   weld(options?: WeldOptions): Command;
   suture(options?: SutureOptions): Command;
-  readonly threads: SutureThread[];
   detach(piece: DetachOptions): Command;
   undo(): Command;
   redo(): Command;
@@ -330,6 +331,7 @@ export class Instance {
   set visible(visible: boolean);
   set screenHeight(pixels: number);
   readonly tissue: { particleCount: number; pointCount: number; isAwake: boolean };
+  readonly threads: SutureThread[];
   hold(at: TissuePlace, target: Vector3Like, options?: { stiffness?: number }): Hold;
   push(at: TissuePlace, newtonSeconds: Vector3Like): void;
   set gravity(metresPerSecondSquared: Vector3Like);

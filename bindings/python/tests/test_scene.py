@@ -80,6 +80,11 @@ def test_a_weld_closes_a_wound(tube):
     sewn = instance.suture(spacing=0.05, strength=10)
     scene.update()
     assert sewn.result.runs > 0 and '"suture"' in instance.log and instance.digest != open_digest
+    threads = instance.threads
+    assert len(threads) >= sewn.result.runs and not any(thread.is_broken for thread in threads)
+    for thread in threads:  # both ends are at one place
+        places = [instance.mesh(mesh).positions[vertex] for mesh, vertex in (thread.left, thread.right)]
+        assert thread.left != thread.right and np.allclose(*places, atol=1e-6)
     instance.undo()
     bad = instance.suture(spacing=-1)
     scene.update()

@@ -162,6 +162,16 @@ class ForceTearing:
 
 
 @dataclass(frozen=True)
+class Thread:
+    """A thread of a suture. left and right: the mesh and the vertex at which an end holds; None: it holds nothing any
+    more. newtons: with which it pulled its lips together in the last update."""
+    left: Optional[tuple]
+    right: Optional[tuple]
+    newtons: float
+    is_broken: bool
+
+
+@dataclass(frozen=True)
 class Origins:
     """Where a torn mesh of n vertices, of which the source has s, and m triangles comes from; -1 is none.
 
@@ -445,6 +455,16 @@ class Instance:
         info = abi.new('tissue_info')
         abi.call('get_tissue', self.scene._handle, self._handle, ctypes.byref(info))
         return info
+
+    @property
+    def threads(self) -> list:
+        """The threads of all sutures, in the order in which they were tied."""
+        raw, count = ctypes.POINTER(abi.type('suture_thread'))(), ctypes.c_uint32()
+        abi.call('get_threads', self.scene._handle, self._handle, ctypes.byref(raw), ctypes.byref(count))
+        none = abi.constant('NONE')
+        return [Thread(None if raw[i].left_mesh == none else (raw[i].left_mesh, raw[i].left_vertex),
+                       None if raw[i].right_mesh == none else (raw[i].right_mesh, raw[i].right_vertex),
+                       raw[i].newtons, bool(raw[i].is_broken)) for i in range(count.value)]
 
     def point_at(self, mesh: int, vertex: int) -> Optional[int]:
         """The point of the surface at a vertex; None: it has none any more."""
