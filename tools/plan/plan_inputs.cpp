@@ -2,6 +2,7 @@
 
 #include <sunder/skinning/pose.h>
 
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +14,12 @@
 #include "tools/plan/curve_file.h"
 
 namespace sunder::tools {
+namespace {
+
+/// One shape around a bent link reaches into its neighbours.
+constexpr std::uint32_t kShapesPerLink = 4;
+
+}  // namespace
 
 ExitCode read_character(const PlanRequest& request, const Messages& messages, PlanInputs& inputs) {
   Result<LoadedCharacter> loaded = load_character(request.model, load_options(request.reading));
@@ -55,7 +62,8 @@ ExitCode read_robot(const PlanRequest& request, const Messages& messages, PlanIn
                                     request.robot.link.c_str()),
                     ExitCode::usage, name_advice(request.robot.link, "links", names));
   if (loaded->model.character != nullptr) {
-    Result<std::vector<BoneCollider>> shapes = fit_colliders(*loaded->model.character);
+    Result<std::vector<BoneCollider>> shapes =
+        fit_colliders(*loaded->model.character, 0, kShapesPerLink);
     if (!shapes) return complain(file, shapes.error(), ExitCode::unreadable_input);
     inputs.tool.shapes = std::move(*shapes);
   }

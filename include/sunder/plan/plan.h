@@ -59,9 +59,9 @@ struct PlanTool {
   MountedBlade blade;
   Affine3d world_from_root = Affine3d::Identity();  ///< In the character's model space.
   /// Shapes of links, bones being links: those that fit_colliders() finds around the robot's
-  /// character. They stay outside of the character but for those of the blade's link, and outside
-  /// of one another but for those of neighbours and those that overlap anyway: docs/plan.md. Links
-  /// without a shape may be anywhere.
+  /// character, better four per link than one. They stay outside of the character but for those of
+  /// the blade's link, and outside of one another but for those of neighbours and those that
+  /// overlap anyway: docs/plan.md. Links without a shape may be anywhere.
   std::vector<BoneCollider> shapes;
 };
 
