@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <utility>
+#include <variant>
 
 #include "pipeline/plan/posed_places.h"
 
@@ -142,6 +143,7 @@ Result<Clearance> Clearance::create(const Character& character, const PlanTool& 
       return status;
     clearance.add_blocks(instant);
   }
+  clearance.measure_spacing();
   return clearance;
 }
 
@@ -155,6 +157,13 @@ void Clearance::add_blocks(Instant& instant) const {
       block.radius = std::max(block.radius, (instant.places[i] - block.centre).norm());
     instant.blocks.push_back(block);
   }
+}
+
+void Clearance::measure_spacing() {
+  const std::vector<Block>& blocks = instants_.front().blocks;
+  for (const Block& block : blocks)
+    spacing_ += 2 * block.radius / std::sqrt(static_cast<double>(kBlock)) /
+                static_cast<double>(blocks.size());
 }
 
 NearPlace Clearance::nearest_at(const Instant& instant, std::size_t shape, const Collider& posed,
@@ -237,6 +246,21 @@ double Clearance::least_distance(BladeChain& chain, std::size_t instant, const V
   return least;
 }
 
+void Clearance::find_below_corners(const Instant& instant, std::size_t shape, const Collider& posed,
+                                   NearPlace& nearest) const {
+  const auto* const box = std::get_if<Collider::Box>(&posed.shape);
+  if (box == nullptr) return;
+  for (unsigned i = 0; i < 8; ++i) {
+    const Vec3d sign((i & 1U) != 0 ? 1 : -1, (i & 2U) != 0 ? 1 : -1, (i & 4U) != 0 ? 1 : -1);
+    const Vec3d corner = posed.place + posed.turn * Vec3d(sign.cwiseProduct(box->half_size));
+    const std::size_t at = nearest_to(instant, corner);
+    const Vec3d from = corner - instant.places[at];
+    const double above = from.dot(instant.normals[at]);
+    if (above >= nearest.distance || from.norm() > 2 * spacing_) continue;
+    nearest = {instant.time, shape, corner - above * instant.normals[at], above, Vec3d::Zero()};
+  }
+}
+
 std::vector<NearPlace> Clearance::find(BladeChain& chain,
                                        const std::function<Values(double)>& values_at,
                                        double margin) const {
@@ -248,7 +272,9 @@ std::vector<NearPlace> Clearance::find(BladeChain& chain,
     for (const std::size_t shape : shapes_) {
       const BoneCollider& of_link = tool_->shapes[shape];
       const Collider posed = posed_collider(of_link, chain.frames()[of_link.bone]);
-      const NearPlace nearest = nearest_at(instant, shape, posed, margin);
+      NearPlace nearest = nearest_at(instant, shape, posed, margin + spacing_);
+      if (nearest.distance >= margin + spacing_) continue;
+      find_below_corners(instant, shape, posed, nearest);
       if (nearest.distance < margin) found.push_back(nearest);
     }
   }

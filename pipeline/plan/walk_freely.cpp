@@ -55,7 +55,7 @@ Eigen::Vector3d lean_of(const Vec3d& from, const Vec3d& to) {
 class FreeWalk {
  public:
   FreeWalk(BladeChain& chain, const TrackSearch& search, const WalkRules& rules)
-      : chain_(chain), search_(search), rules_(rules) {}
+      : chain_(chain), search_(search), rules_(rules), state_(kWalkSeed + rules.seed) {}
 
   std::vector<Track> run() {
     std::size_t start = 0;
@@ -252,7 +252,7 @@ class FreeWalk {
   BladeChain& chain_;
   const TrackSearch& search_;
   const WalkRules& rules_;
-  std::uint64_t state_ = kWalkSeed;
+  std::uint64_t state_;
   std::size_t farthest_ = 0;
   int tried_ = 0;
 };
