@@ -202,9 +202,9 @@ NearPlace Clearance::nearest_at(const Instant& instant, std::size_t shape, const
   return nearest;
 }
 
-std::size_t Clearance::nearest_to(const Instant& instant, const Vec3d& point) {
-  double least = std::numeric_limits<double>::infinity();  // squared
-  std::size_t nearest = 0;
+std::size_t Clearance::nearest_to(const Instant& instant, const Vec3d& point, std::size_t guess) {
+  double least = (instant.places[guess] - point).squaredNorm();
+  std::size_t nearest = guess;
   for (std::size_t block = 0; block < instant.blocks.size(); ++block) {
     const Block& of = instant.blocks[block];
     const double away = (of.centre - point).norm() - of.radius;
@@ -223,9 +223,10 @@ std::size_t Clearance::nearest_to(const Instant& instant, const Vec3d& point) {
 bool Clearance::is_blade_outside(std::size_t instant, const Vec3d& base, const Vec3d& entry) const {
   const Instant& at = instants_[instant];
   if (at.places.empty()) return true;
+  std::size_t nearest = 0;
   for (int i = 1; i <= kPlacesOfBlade; ++i) {
     const Vec3d point = entry + static_cast<double>(i) / kPlacesOfBlade * (base - entry);
-    const std::size_t nearest = nearest_to(at, point);
+    nearest = nearest_to(at, point, nearest);
     const Vec3d from = point - at.places[nearest];
     if (from.dot(at.normals[nearest]) < -0.5 * from.norm()) return false;
   }
@@ -250,10 +251,11 @@ void Clearance::find_below_corners(const Instant& instant, std::size_t shape, co
                                    NearPlace& nearest) const {
   const auto* const box = std::get_if<Collider::Box>(&posed.shape);
   if (box == nullptr) return;
+  std::size_t at = 0;
   for (unsigned i = 0; i < 8; ++i) {
     const Vec3d sign((i & 1U) != 0 ? 1 : -1, (i & 2U) != 0 ? 1 : -1, (i & 4U) != 0 ? 1 : -1);
     const Vec3d corner = posed.place + posed.turn * Vec3d(sign.cwiseProduct(box->half_size));
-    const std::size_t at = nearest_to(instant, corner);
+    at = nearest_to(instant, corner, at);
     const Vec3d from = corner - instant.places[at];
     const double above = from.dot(instant.normals[at]);
     if (above >= nearest.distance || from.norm() > 2 * spacing_) continue;

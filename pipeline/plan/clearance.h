@@ -73,7 +73,9 @@ class Clearance {
   void add_blocks(Instant& instant) const;
   void measure_spacing();
   /// The place of the surface that is nearest to a point. There is at least one.
-  [[nodiscard]] static std::size_t nearest_to(const Instant& instant, const Vec3d& point);
+  /// @param guess  any place; a near one saves time.
+  [[nodiscard]] static std::size_t nearest_to(const Instant& instant, const Vec3d& point,
+                                              std::size_t guess);
   [[nodiscard]] NearPlace nearest_at(const Instant& instant, std::size_t shape,
                                      const Collider& posed, double margin) const;
   /// Corners of a box may be below the surface between its places.
