@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <variant>
 
@@ -251,16 +252,37 @@ void Clearance::find_below_corners(const Instant& instant, std::size_t shape, co
                                    NearPlace& nearest) const {
   const auto* const box = std::get_if<Collider::Box>(&posed.shape);
   if (box == nullptr) return;
-  std::size_t at = 0;
   for (unsigned i = 0; i < 8; ++i) {
     const Vec3d sign((i & 1U) != 0 ? 1 : -1, (i & 2U) != 0 ? 1 : -1, (i & 4U) != 0 ? 1 : -1);
     const Vec3d corner = posed.place + posed.turn * Vec3d(sign.cwiseProduct(box->half_size));
-    at = nearest_to(instant, corner, at);
-    const Vec3d from = corner - instant.places[at];
-    const double above = from.dot(instant.normals[at]);
-    if (above >= nearest.distance || from.norm() > 2 * spacing_) continue;
-    nearest = {instant.time, shape, corner - above * instant.normals[at], above, Vec3d::Zero()};
+    const std::optional<std::size_t> at = highest_below(instant, corner);
+    if (!at) continue;
+    const double above = (corner - instant.places[*at]).dot(instant.normals[*at]);
+    if (above >= nearest.distance) continue;
+    nearest = {instant.time, shape, corner - above * instant.normals[*at], above, Vec3d::Zero()};
   }
+}
+
+std::optional<std::size_t> Clearance::highest_below(const Instant& instant,
+                                                    const Vec3d& point) const {
+  // Beside a convex edge a point may be below the plane of one face, but not of both.
+  const double near = 2 * spacing_;
+  std::optional<std::size_t> highest;
+  double most = -std::numeric_limits<double>::infinity();
+  for (std::size_t block = 0; block < instant.blocks.size(); ++block) {
+    const Block& of = instant.blocks[block];
+    if ((of.centre - point).norm() - of.radius > near) continue;
+    const std::size_t end = std::min((block + 1) * kBlock, instant.places.size());
+    for (std::size_t i = block * kBlock; i < end; ++i) {
+      const Vec3d from = point - instant.places[i];
+      if (from.squaredNorm() > near * near) continue;
+      const double above = from.dot(instant.normals[i]);
+      if (above <= most) continue;
+      most = above;
+      highest = i;
+    }
+  }
+  return highest;
 }
 
 std::vector<NearPlace> Clearance::find(BladeChain& chain,

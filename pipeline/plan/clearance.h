@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -82,6 +83,10 @@ class Clearance {
   /// @param nearest  becomes the place above the deepest of them, if that is nearer.
   void find_below_corners(const Instant& instant, std::size_t shape, const Collider& posed,
                           NearPlace& nearest) const;
+
+  /// The place near a point above whose plane it is highest; empty if none is near.
+  [[nodiscard]] std::optional<std::size_t> highest_below(const Instant& instant,
+                                                         const Vec3d& point) const;
 
   explicit Clearance(const PlanTool& tool) : tool_(&tool) {}
 
