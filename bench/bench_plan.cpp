@@ -20,6 +20,7 @@
 #include "bench/harness/json_object.h"
 #include "bench/plan/frame_ik.h"
 #include "bench/plan/link_depth.h"
+#include "bench/plan/link_gaps.h"
 #include "bench/plan/motion_search.h"
 #include "bench/plan/pattern_search.h"
 #include "bench/plan/plan_cases.h"
@@ -36,7 +37,7 @@ constexpr double kFrames = 30;  ///< Samples per second of the inverse kinematic
 
 struct Figures {
   int cases = 0, reachable = 0, reached = 0, planned = 0, hausdorff_ok = 0, repeated = 0, same = 0,
-      over_limits = 0, penetrations = 0, causes = 0, causes_true = 0;
+      over_limits = 0, penetrations = 0, overlaps = 0, causes = 0, causes_true = 0;
   std::vector<double> seconds, hausdorff, frame_hausdorff, place, depth, angle;
 };
 
@@ -65,20 +66,26 @@ bool leaves_limits(const PlanTool& tool, const RobotTrajectory& trajectory) {
   return false;
 }
 
-/// How deep a vertex of a link other than the blade's comes below the surface, at 200 times.
-double deepest_vertex(const PlanCase& of, const RobotTrajectory& trajectory) {
+/// At 200 times: how deep a vertex of a link other than the blade's comes below the surface, and
+/// the least gap of links that have to keep apart, at most the size of the rig.
+struct LinkPlaces {
+  double deepest = 0, least_gap = 0;
+};
+LinkPlaces look_at_links(const PlanCase& of, const RobotTrajectory& trajectory) {
   const auto motion = RobotMotion::create(of.tool.robot, trajectory);
   LinkDepth links(of);
+  const LinkGaps gaps(of.tool);
   std::vector<Affine3d> frames(of.tool.robot.links.size());
-  double deepest = 0;
+  LinkPlaces found{0, of.rig.size};
   constexpr int kTimes = 200;
   for (int i = 0; i <= kTimes; ++i) {
     const double time = motion->last_time() * i / kTimes;
     if (!motion->pose_at(time, frames, of.tool.world_from_root))
-      return std::numeric_limits<double>::infinity();
-    deepest = std::max(deepest, links.deepest_vertex(time, frames));
+      return {std::numeric_limits<double>::infinity(), 0};
+    found.deepest = std::max(found.deepest, links.deepest_vertex(time, frames));
+    found.least_gap = gaps.least(frames, found.least_gap);
   }
-  return deepest;
+  return found;
 }
 
 /// The largest distance of lips and curve after inverse kinematics for each frame.
@@ -213,11 +220,15 @@ void run_case(const PlanCase& of, std::uint64_t seed, bool is_verbose, Figures& 
     ++figures.planned;
     figures.hausdorff_ok += is_ok ? 1 : 0;
     figures.over_limits += leaves_limits(of.tool, planned.trajectory) ? 1 : 0;
-    const double deepest = deepest_vertex(of, planned.trajectory);
-    figures.penetrations += deepest > 1e-3 * of.rig.size ? 1 : 0;
-    if (deepest > 1e-3 * of.rig.size && is_verbose)
-      std::printf("    a vertex is %.4f below the surface, clearance %.4f\n", deepest / of.rig.size,
-                  report.least_clearance / of.rig.size);
+    const LinkPlaces links_at = look_at_links(of, planned.trajectory);
+    figures.penetrations += links_at.deepest > 1e-3 * of.rig.size ? 1 : 0;
+    figures.overlaps += links_at.least_gap < -1e-3 * of.rig.size ? 1 : 0;
+    if (links_at.deepest > 1e-3 * of.rig.size && is_verbose)
+      std::printf("    a vertex is %.4f below the surface, clearance %.4f\n",
+                  links_at.deepest / of.rig.size, report.least_clearance / of.rig.size);
+    if (links_at.least_gap <= 0 && is_verbose)
+      std::printf("    links are %.5f inside of one another, by the plan %.5f apart\n",
+                  -links_at.least_gap / of.rig.size, report.least_self_clearance / of.rig.size);
     frame = frame_hausdorff(of, *path, report);
     figures.hausdorff.push_back(report.hausdorff / options.tolerance);
     figures.frame_hausdorff.push_back(frame / options.tolerance);
@@ -268,6 +279,7 @@ void print_summary(const Figures& figures) {
   summary.add("plan_seconds_median", finite(median(figures.seconds)));
   summary.add("plan_same", finite(share(figures.same, figures.repeated)));
   summary.add("plan_penetrations", figures.penetrations);
+  summary.add("plan_overlaps", figures.overlaps);
   summary.add("plan_over_limits", figures.over_limits);
   summary.add("plan_causes", figures.causes);
   summary.add("plan_causes_true", finite(share(figures.causes_true, figures.causes)));

@@ -8,12 +8,13 @@
 namespace sunder::bench {
 namespace {
 
-constexpr double kDepthShare = 0.45;  ///< Of the wanted depth; plans allow 0.5.
-constexpr double kEnough = 0.5;       ///< Of the tolerance.
+constexpr double kDepthShare = 0.45;         ///< Of the wanted depth; plans allow 0.5.
+constexpr double kDepthShareBetween = 0.02;  ///< Of places between those that are walked.
+constexpr double kEnough = 0.5;              ///< Of the tolerance.
 constexpr double kOfSpeed = 0.9;
-constexpr int kEvery = 4;     ///< Samples of the cut that are skipped.
-constexpr int kStarts = 120;  ///< Random ones.
-constexpr int kMostJudged = 8;
+constexpr int kEvery = 4;     ///< Samples from one that is walked to the next.
+constexpr int kStarts = 240;  ///< Random ones.
+constexpr int kMostJudged = 12;
 constexpr int kMostWalks = 40;      ///< From starts that are free.
 constexpr std::size_t kWidth = 12;  ///< Of a layer.
 constexpr int kTrials = 5;          ///< For each of its values.
@@ -27,6 +28,7 @@ MotionSearch::MotionSearch(const PlanCase& of, double tolerance, LinkDepth& link
     : of_(of),
       tolerance_(tolerance),
       links_(links),
+      gaps_(of.tool),
       kinematics_(*RobotKinematics::create(of.tool.robot)),
       frames_(of.tool.robot.links.size()),
       random_(11) {
@@ -129,10 +131,13 @@ bool MotionSearch::reach(const plan::TargetSample& sample, const Bounds& bounds,
 std::optional<double> MotionSearch::room_at(const plan::TargetSample& sample,
                                             const Numbers& values) {
   if (!kinematics_.evaluate(values, frames_, of_.tool.world_from_root)) return {};
-  const Vec3d base = frames_[of_.tool.blade.link] * of_.tool.blade.base;
-  if (!links_.is_blade_outside(sample.time, base, sample.place)) return {};
   const double wanted = 0.03 * of_.rig.size;
-  const double distance = links_.least_distance(sample.time, frames_, wanted);
+  const double gap = gaps_.least(frames_, wanted);
+  if (gap <= 0) return {};
+  const Vec3d base = frames_[of_.tool.blade.link] * of_.tool.blade.base;
+  const Vec3d tip = frames_[of_.tool.blade.link] * of_.tool.blade.tip;
+  if (!links_.is_blade_outside(sample.time, base, sample.depth > 0 ? sample.place : tip)) return {};
+  const double distance = std::min(gap, links_.least_distance(sample.time, frames_, wanted));
   if (distance <= 0) return {};
   double to_limits = 1;
   for (const std::size_t i : moved_) {
@@ -159,7 +164,9 @@ void MotionSearch::add_next(const std::vector<plan::TargetSample>& samples, std:
           const double most = 0.5 * std::min(seconds * speeds_[k], 0.3);
           moved.values[k] += random_.uniform(-most, most);
         }
-      if (!reach(samples[i], bounds, {kDepthShare, kEnough, trial == 1}, moved.values)) continue;
+      const bool is_reached =
+          reach(samples[i], bounds, {kDepthShare, kEnough, trial == 1}, moved.values);
+      if (!is_reached && samples[i].depth > 0) continue;
       const std::optional<double> room = room_at(samples[i], moved.values);
       if (!room) continue;
       moved.room = *room;
@@ -209,44 +216,49 @@ std::vector<MotionSearch::Numbers> MotionSearch::walk(
 }
 
 RobotTrajectory MotionSearch::motion_through(const std::vector<plan::TargetSample>& samples,
-                                             const std::vector<Numbers>& values) {
+                                             const std::vector<Numbers>& values,
+                                             double depth_share) {
   RobotTrajectory motion;
   for (const RobotValue& value : of_.tool.robot.values) motion.names.push_back(value.name);
-  std::vector<Numbers> all(samples.size());
-  std::size_t first = samples.size(), end = 0;  // of those between values
-  std::size_t next = 0;
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    if (i % kEvery == 0 && samples[i].depth > 0) next = std::min(next + 1, values.size());
-    if (samples[i].depth <= 0 || next == 0 || next == values.size()) continue;
+    const std::size_t before = i / kEvery, next = std::min(before + 1, values.size() - 1);
     const double share = static_cast<double>(i % kEvery) / kEvery;
-    all[i] = values[next - 1];
-    for (std::size_t k = 0; k < all[i].size(); ++k)
-      all[i][k] += share * (values[next][k] - all[i][k]);
-    reach(samples[i], limits_, {0.02, 0.05, false}, all[i]);
-    first = std::min(first, i);
-    end = i + 1;
-  }
-  // Beside it the blade rises from the moving surface, as well as it can.
-  for (std::size_t i = end; i < samples.size(); ++i)
-    reach(samples[i], limits_, {0.02, 0.05, false}, all[i] = all[i - 1]);
-  for (std::size_t i = first; i-- > 0;)
-    reach(samples[i], limits_, {0.02, 0.05, false}, all[i] = all[i + 1]);
-  for (std::size_t i = 0; i < samples.size(); ++i) {
+    Numbers at = values[before];
+    for (std::size_t k = 0; k < at.size(); ++k) at[k] += share * (values[next][k] - at[k]);
+    if (samples[i].depth > 0) reach(samples[i], limits_, {depth_share, 0.05, false}, at);
     motion.times.push_back(samples[i].time);
-    motion.values.insert(motion.values.end(), all[i].begin(), all[i].end());
+    motion.values.insert(motion.values.end(), at.begin(), at.end());
   }
   return motion;
 }
 
+bool MotionSearch::is_free(const std::vector<plan::TargetSample>& samples,
+                           const RobotTrajectory& motion) {
+  const std::size_t count = speeds_.size();
+  const auto values_at = [&](std::size_t i) {
+    const auto first = motion.values.begin() + static_cast<std::ptrdiff_t>(i * count);
+    return Numbers(first, first + static_cast<std::ptrdiff_t>(count));
+  };
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const Numbers values = values_at(i);
+    if (!room_at(samples[i], values)) return false;
+    if (i < kEvery) continue;
+    const Numbers before = values_at(i - kEvery);
+    const double seconds = samples[i].time - samples[i - kEvery].time;
+    for (std::size_t k = 0; k < count; ++k)
+      if (std::abs(values[k] - before[k]) > seconds * speeds_[k] / kOfSpeed) return false;
+  }
+  return true;
+}
+
 bool MotionSearch::find(const std::vector<plan::TargetSample>& samples,
                         const std::function<bool(const RobotTrajectory&)>& is_good) {
-  std::vector<plan::TargetSample> cut;
-  for (std::size_t i = 0; i < samples.size(); i += kEvery)
-    if (samples[i].depth > 0) cut.push_back(samples[i]);
-  if (cut.empty()) return false;
-  const auto middle = static_cast<std::ptrdiff_t>(cut.size() / 2);
-  const std::vector<plan::TargetSample> after(cut.begin() + middle, cut.end());
-  const std::vector<plan::TargetSample> before(cut.rend() - middle - 1, cut.rend());
+  std::vector<plan::TargetSample> walked;
+  for (std::size_t i = 0; i < samples.size(); i += kEvery) walked.push_back(samples[i]);
+  if (walked.empty()) return false;
+  const auto middle = static_cast<std::ptrdiff_t>(walked.size() / 2);
+  const std::vector<plan::TargetSample> after(walked.begin() + middle, walked.end());
+  const std::vector<plan::TargetSample> before(walked.rend() - middle - 1, walked.rend());
   int walks = 0, judged = 0;
   for (int start = 0; start < kStarts && walks < kMostWalks && judged < kMostJudged; ++start) {
     Numbers values = random_values();
@@ -262,8 +274,12 @@ bool MotionSearch::find(const std::vector<plan::TargetSample>& samples,
     if (track.empty()) continue;
     std::reverse(track.begin(), track.end());
     track.insert(track.end(), there.begin() + 1, there.end());
-    ++judged;
-    if (is_good(motion_through(samples, track))) return true;
+    for (const double depth_share : {kDepthShareBetween, kDepthShare}) {
+      const RobotTrajectory motion = motion_through(samples, track, depth_share);
+      if (!is_free(samples, motion)) continue;
+      ++judged;
+      if (is_good(motion)) return true;
+    }
   }
   return false;
 }

@@ -21,7 +21,8 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path kShared = SUNDER_SHARED_MODELS;
-constexpr double kHeight = 1.8;  ///< Metres, of a character of size 1.
+constexpr std::uint32_t kShapesPerLink = 4;  ///< As in `sunder plan`.
+constexpr double kHeight = 1.8;              ///< Metres, of a character of size 1.
 
 MovingRig rig_of(const std::string& name, Character character) {
   MovingRig rig{name, std::make_shared<const Character>(std::move(character)), 1};
@@ -155,7 +156,7 @@ std::vector<Arm> arms() {
     Arm arm{file.name, {}, {}};
     arm.tool.robot = loaded->robot;
     arm.tool.blade = {find_link(arm.tool.robot, file.link), file.base, file.tip};
-    const auto shapes = fit_colliders(*loaded->model.character);
+    const auto shapes = fit_colliders(*loaded->model.character, 0, kShapesPerLink);
     if (!shapes || arm.tool.blade.link == kNone) continue;
     arm.tool.shapes = *shapes;
     arm.vertices = link_vertices(*loaded->model.character, arm.tool.robot.links.size());

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <utility>
 
 #include "core/internal/ordered.h"
 #include "core/internal/out_of_memory.h"
+#include "particles/contact/split_parts.h"
 #include "particles/internal/fitted_shape.h"
 
 namespace sunder {
@@ -16,15 +18,25 @@ namespace {
 
 constexpr double kThinnest = 1e-4;  ///< Metres; flat parts get a thickness.
 
-/// Per bone: the vertices that it moves predominantly, in its frame.
-std::vector<std::vector<Vec3d>> own_vertices(const Character& character) {
-  std::vector<std::vector<Vec3d>> own(character.skeleton.bones.size());
+/// Per bone: the vertices that it moves predominantly, in its frame, and the triangles between
+/// them.
+std::vector<particles::PartOfBone> own_parts(const Character& character) {
+  std::vector<particles::PartOfBone> own(character.skeleton.bones.size());
   for (const Mesh& mesh : character.meshes) {
     const Skin& skin = character.skins[mesh.skin];
+    std::vector<Index> bones(mesh.vertex_count()), places(mesh.vertex_count());
     for (Index v = 0; v < mesh.vertex_count(); ++v) {
       const Index slot = std::ranges::max_element(mesh.weights.of(v), {}, &Influence::weight)->slot;
-      own[skin.bones[slot]].push_back(transform(Affine3d(skin.bone_from_bind[slot].cast<double>()),
-                                                Vec3d(mesh.positions[v].cast<double>())));
+      bones[v] = skin.bones[slot];
+      std::vector<Vec3d>& points = own[bones[v]].points;
+      places[v] = static_cast<Index>(points.size());
+      points.push_back(transform(Affine3d(skin.bone_from_bind[slot].cast<double>()),
+                                 Vec3d(mesh.positions[v].cast<double>())));
+    }
+    for (const Triangle& corners : mesh.triangles) {
+      const Index bone = bones[corners[0]];
+      if (bones[corners[1]] != bone || bones[corners[2]] != bone) continue;
+      own[bone].triangles.push_back({places[corners[0]], places[corners[1]], places[corners[2]]});
     }
   }
   return own;
@@ -95,18 +107,27 @@ Collider particles::fitted_shape(std::vector<Vec3d> points, double friction) {
           normalized(Quatd(axes)), friction};
 }
 
-Result<std::vector<BoneCollider>> fit_colliders(const Character& character, double friction) {
+Result<std::vector<BoneCollider>> fit_colliders(const Character& character, double friction,
+                                                std::uint32_t most_per_bone) {
   return or_out_of_memory([&]() -> Result<std::vector<BoneCollider>> {
     if (!(friction >= 0) || !std::isfinite(friction))
       return Status::failure(StatusCode::invalid_argument, kNone,
                              "friction %g; expected a number of at least 0", friction);
+    if (most_per_bone == 0)
+      return Status::failure(StatusCode::invalid_argument, kNone,
+                             "no shapes per bone; expected at least 1");
     std::vector<BoneCollider> colliders;
     if (character.meshes.empty()) return colliders;
     if (const Status status = validate_character(character); !status) return status;
-    std::vector<std::vector<Vec3d>> own = own_vertices(character);
+    const std::vector<particles::PartOfBone> own = own_parts(character);
     for (Index bone = 0; bone < own.size(); ++bone) {
-      if (own[bone].empty()) continue;
-      colliders.push_back({bone, particles::fitted_shape(std::move(own[bone]), friction)});
+      if (own[bone].points.empty()) continue;
+      if (most_per_bone == 1) {
+        colliders.push_back({bone, particles::fitted_shape(own[bone].points, friction)});
+        continue;
+      }
+      for (const Collider& shape : particles::split_shapes(own[bone], friction, most_per_bone))
+        colliders.push_back({bone, shape});
     }
     return colliders;
   });

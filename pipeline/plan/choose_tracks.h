@@ -44,7 +44,8 @@ struct Track {
 /// The constraints of a walk.
 struct WalkRules {
   bool keeps_links_outside = true;
-  double speed = 1;  ///< Factor of all limits of speed.
+  double speed = 1;        ///< Factor of all limits of speed.
+  std::uint64_t seed = 0;  ///< Of random starts and steps.
 };
 
 /// Tracks on which links stay outside of the character, and values within limits and speeds: a

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
+#include <variant>
 
 #include "pipeline/plan/posed_places.h"
 
@@ -142,6 +144,7 @@ Result<Clearance> Clearance::create(const Character& character, const PlanTool& 
       return status;
     clearance.add_blocks(instant);
   }
+  clearance.measure_spacing();
   return clearance;
 }
 
@@ -155,6 +158,13 @@ void Clearance::add_blocks(Instant& instant) const {
       block.radius = std::max(block.radius, (instant.places[i] - block.centre).norm());
     instant.blocks.push_back(block);
   }
+}
+
+void Clearance::measure_spacing() {
+  const std::vector<Block>& blocks = instants_.front().blocks;
+  for (const Block& block : blocks)
+    spacing_ += 2 * block.radius / std::sqrt(static_cast<double>(kBlock)) /
+                static_cast<double>(blocks.size());
 }
 
 NearPlace Clearance::nearest_at(const Instant& instant, std::size_t shape, const Collider& posed,
@@ -193,9 +203,9 @@ NearPlace Clearance::nearest_at(const Instant& instant, std::size_t shape, const
   return nearest;
 }
 
-std::size_t Clearance::nearest_to(const Instant& instant, const Vec3d& point) {
-  double least = std::numeric_limits<double>::infinity();  // squared
-  std::size_t nearest = 0;
+std::size_t Clearance::nearest_to(const Instant& instant, const Vec3d& point, std::size_t guess) {
+  double least = (instant.places[guess] - point).squaredNorm();
+  std::size_t nearest = guess;
   for (std::size_t block = 0; block < instant.blocks.size(); ++block) {
     const Block& of = instant.blocks[block];
     const double away = (of.centre - point).norm() - of.radius;
@@ -214,9 +224,10 @@ std::size_t Clearance::nearest_to(const Instant& instant, const Vec3d& point) {
 bool Clearance::is_blade_outside(std::size_t instant, const Vec3d& base, const Vec3d& entry) const {
   const Instant& at = instants_[instant];
   if (at.places.empty()) return true;
+  std::size_t nearest = 0;
   for (int i = 1; i <= kPlacesOfBlade; ++i) {
     const Vec3d point = entry + static_cast<double>(i) / kPlacesOfBlade * (base - entry);
-    const std::size_t nearest = nearest_to(at, point);
+    nearest = nearest_to(at, point, nearest);
     const Vec3d from = point - at.places[nearest];
     if (from.dot(at.normals[nearest]) < -0.5 * from.norm()) return false;
   }
@@ -237,6 +248,43 @@ double Clearance::least_distance(BladeChain& chain, std::size_t instant, const V
   return least;
 }
 
+void Clearance::find_below_corners(const Instant& instant, std::size_t shape, const Collider& posed,
+                                   NearPlace& nearest) const {
+  const auto* const box = std::get_if<Collider::Box>(&posed.shape);
+  if (box == nullptr) return;
+  for (unsigned i = 0; i < 8; ++i) {
+    const Vec3d sign((i & 1U) != 0 ? 1 : -1, (i & 2U) != 0 ? 1 : -1, (i & 4U) != 0 ? 1 : -1);
+    const Vec3d corner = posed.place + posed.turn * Vec3d(sign.cwiseProduct(box->half_size));
+    const std::optional<std::size_t> at = highest_below(instant, corner);
+    if (!at) continue;
+    const double above = (corner - instant.places[*at]).dot(instant.normals[*at]);
+    if (above >= nearest.distance) continue;
+    nearest = {instant.time, shape, corner - above * instant.normals[*at], above, Vec3d::Zero()};
+  }
+}
+
+std::optional<std::size_t> Clearance::highest_below(const Instant& instant,
+                                                    const Vec3d& point) const {
+  // Beside a convex edge a point may be below the plane of one face, but not of both.
+  const double near = 2 * spacing_;
+  std::optional<std::size_t> highest;
+  double most = -std::numeric_limits<double>::infinity();
+  for (std::size_t block = 0; block < instant.blocks.size(); ++block) {
+    const Block& of = instant.blocks[block];
+    if ((of.centre - point).norm() - of.radius > near) continue;
+    const std::size_t end = std::min((block + 1) * kBlock, instant.places.size());
+    for (std::size_t i = block * kBlock; i < end; ++i) {
+      const Vec3d from = point - instant.places[i];
+      if (from.squaredNorm() > near * near) continue;
+      const double above = from.dot(instant.normals[i]);
+      if (above <= most) continue;
+      most = above;
+      highest = i;
+    }
+  }
+  return highest;
+}
+
 std::vector<NearPlace> Clearance::find(BladeChain& chain,
                                        const std::function<Values(double)>& values_at,
                                        double margin) const {
@@ -248,7 +296,9 @@ std::vector<NearPlace> Clearance::find(BladeChain& chain,
     for (const std::size_t shape : shapes_) {
       const BoneCollider& of_link = tool_->shapes[shape];
       const Collider posed = posed_collider(of_link, chain.frames()[of_link.bone]);
-      const NearPlace nearest = nearest_at(instant, shape, posed, margin);
+      NearPlace nearest = nearest_at(instant, shape, posed, margin + spacing_);
+      if (nearest.distance >= margin + spacing_) continue;
+      find_below_corners(instant, shape, posed, nearest);
       if (nearest.distance < margin) found.push_back(nearest);
     }
   }

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -71,10 +72,21 @@ class Clearance {
   };
 
   void add_blocks(Instant& instant) const;
+  void measure_spacing();
   /// The place of the surface that is nearest to a point. There is at least one.
-  [[nodiscard]] static std::size_t nearest_to(const Instant& instant, const Vec3d& point);
+  /// @param guess  any place; a near one saves time.
+  [[nodiscard]] static std::size_t nearest_to(const Instant& instant, const Vec3d& point,
+                                              std::size_t guess);
   [[nodiscard]] NearPlace nearest_at(const Instant& instant, std::size_t shape,
                                      const Collider& posed, double margin) const;
+  /// Corners of a box may be below the surface between its places.
+  /// @param nearest  becomes the place above the deepest of them, if that is nearer.
+  void find_below_corners(const Instant& instant, std::size_t shape, const Collider& posed,
+                          NearPlace& nearest) const;
+
+  /// The place near a point above whose plane it is highest; empty if none is near.
+  [[nodiscard]] std::optional<std::size_t> highest_below(const Instant& instant,
+                                                         const Vec3d& point) const;
 
   explicit Clearance(const PlanTool& tool) : tool_(&tool) {}
 
@@ -82,6 +94,7 @@ class Clearance {
   std::vector<std::size_t> shapes_;  ///< Those that count.
   LinkPairs pairs_;
   std::vector<Instant> instants_;
+  double spacing_ = 0;  ///< About the distance of neighbouring places, metres.
 };
 
 }  // namespace sunder::plan

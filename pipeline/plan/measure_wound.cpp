@@ -92,11 +92,15 @@ class LipFinder {
   std::map<std::pair<std::uint32_t, std::uint32_t>, Edge> edges_;
 };
 
-double distance_to_segment(const Vec3d& place, const Vec3d& a, const Vec3d& b) {
+Vec3d nearest_on_segment(const Vec3d& place, const Vec3d& a, const Vec3d& b) {
   const Vec3d along = b - a;
   const double square = along.squaredNorm();
   const double share = square > 0 ? std::clamp((place - a).dot(along) / square, 0.0, 1.0) : 0;
-  return (a + share * along - place).norm();
+  return a + share * along;
+}
+
+double distance_to_segment(const Vec3d& place, const Vec3d& a, const Vec3d& b) {
+  return (nearest_on_segment(place, a, b) - place).norm();
 }
 
 /// Distances in one pose.
@@ -114,6 +118,16 @@ class PosedDistances {
     double least = std::numeric_limits<double>::infinity();
     for (const auto& [a, b] : edges_.edges)
       least = std::min(least, distance_to_segment(on_curve_[i], on_lips_[a], on_lips_[b]));
+    return least;
+  }
+
+  /// From the nearest place of the lips to a place of the curve.
+  [[nodiscard]] Vec3d from_lips(std::size_t i) const {
+    Vec3d least = Vec3d::Constant(std::numeric_limits<double>::infinity());
+    for (const auto& [a, b] : edges_.edges) {
+      const Vec3d from = on_curve_[i] - nearest_on_segment(on_curve_[i], on_lips_[a], on_lips_[b]);
+      if (from.squaredNorm() < least.squaredNorm()) least = from;
+    }
     return least;
   }
 
@@ -157,6 +171,30 @@ class PosedDistances {
   const LipEdges& edges_;
   std::vector<Vec3d> on_curve_, on_lips_;
 };
+
+/// WoundMeasures::missed_by, averaged over some anchors to each side.
+Result<std::vector<Vec2d>> missed_by(const TargetPath& path, const PosedDistances& distances,
+                                     const ModelPose& pose) {
+  constexpr std::size_t kWindow = 2;
+  PosedPath posed;
+  if (const Status status = path.pose(pose, posed); !status) return status;
+  const std::size_t count = posed.places.size();
+  std::vector<Vec2d> each(count), averaged(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec3d along =
+        direction_at(posed.places[i - std::min(i, kWindow)],
+                     posed.places[std::min(i + kWindow, count - 1)], posed.normals[i]);
+    const Vec3d from = distances.from_lips(i);
+    each[i] = Vec2d(from.dot(along), from.dot(posed.normals[i].cross(along)));
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t side = std::min({kWindow, i, count - 1 - i});  // ends stay
+    averaged[i] = Vec2d::Zero();
+    for (std::size_t k = i - side; k <= i + side; ++k)
+      averaged[i] += each[k] / static_cast<double>(2 * side + 1);
+  }
+  return averaged;
+}
 
 /// Poses of all clips, at even steps; none without clips.
 Result<std::vector<ModelPose>> clip_poses(const std::shared_ptr<const Character>& character) {
@@ -206,6 +244,9 @@ Result<WoundMeasures> measure_wound(const std::shared_ptr<const Character>& char
   measures.farthest_share =
       static_cast<double>(farthest.at) / static_cast<double>(curve.size() - 1);
   measures.mean_distance = distances.mean();
+  Result<std::vector<Vec2d>> missed = missed_by(path, distances, pose);
+  if (!missed) return missed.error();
+  measures.missed_by = std::move(*missed);
   const Result<std::vector<ModelPose>> poses = clip_poses(character);
   if (!poses) return poses.error();
   for (const ModelPose& of_clip : *poses) {

@@ -14,6 +14,8 @@ struct WoundMeasures {
   /// Infinity if there are no lips.
   double hausdorff = 0, mean_distance = 0, hausdorff_in_clips = 0;
   double farthest_share = 0;  ///< Of the curve, about: the place of the largest distance.
+  /// For TargetPath::aim_beside(): from the nearest place of the lips to each anchor of the curve.
+  std::vector<Vec2d> missed_by;
   TearReport torn;
 };
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -117,9 +118,13 @@ class Planner {
       const Result<bool> is_made = makes_it(track);
       if (!is_made || *is_made) return is_made;
     }
-    for (const Track& track : walk_freely(chain, search)) {
-      const Result<bool> is_made = makes_it(track);
-      if (!is_made || *is_made) return is_made;
+    for (std::uint64_t seed = 0; seed < kWalks; ++seed) {
+      const std::vector<Track> walked = walk_freely(chain, search, {true, 1, seed});
+      if (walked.empty()) break;
+      for (const Track& track : walked) {
+        const Result<bool> is_made = makes_it(track);
+        if (!is_made || *is_made) return is_made;
+      }
     }
     if (first && is_plain_reason(*first)) {
       planned_ = std::move(*first);
@@ -154,11 +159,11 @@ class Planner {
       report.obstacles = at_place;
       return;
     }
-    for (const Track& track : walk_freely(chain, search, {false, 1})) {
+    for (const Track& track : walk_freely(chain, search, {false, 1, 0})) {
       name_links(chain, track);
       if (!report.obstacles.empty()) return;
     }
-    for (const Track& track : walk_freely(chain, search, {false, kFaster})) {
+    for (const Track& track : walk_freely(chain, search, {false, kFaster, 0})) {
       name_speeds(chain, track);
       if (!report.obstacles.empty()) return;
     }
@@ -253,14 +258,57 @@ class Planner {
           chain, [&](double time) { return spline.at(time); }, kTimesOfPairs);
   }
 
-  /// Fits a spline to a track, and tears. The report says whether the curve is made.
+  /// Fits a spline to a track, and tears. The report says whether the curve is made. Where rates
+  /// keep the blade off the curve, it leans more; where lips are a little beside the curve, the
+  /// blade aims as much to the other side.
   Status follow(const Track& track, const TargetPath& path, BladeChain& chain) {
+    aimed_ = samples_;
+    aim_scales_ = scales_;
+    if (const Status status = make(track, path, chain); !status) return status;
+    if (is_too_fast() && !timing_.may_take_longer) {
+      aim_scales_.angle *= kLeansMore;
+      if (const Status status = make(track, path, chain); !status) return status;
+    }
+    TargetPath aim = path;
+    for (int round = 0; round < kMostCorrections && is_a_little_beside(); ++round) {
+      aim.aim_beside(missed_by_);
+      Result<std::vector<TargetSample>> aimed =
+          sample_target(*character_, aim, timing_, sample_times(Timeline(timing_).knots()));
+      if (!aimed) return aimed.error();
+      aimed_ = std::move(*aimed);
+      if (const Status status = make(track, path, chain); !status) return status;
+    }
+    return {};
+  }
+
+  /// Whether a spline was fitted, but rates keep it off the curve.
+  [[nodiscard]] bool is_too_fast() const {
+    const std::vector<PlanObstacle>& obstacles = planned_.report.obstacles;
+    return is_fitted_ && !obstacles.empty() &&
+           std::all_of(obstacles.begin(), obstacles.end(), [](const PlanObstacle& obstacle) {
+             return obstacle.kind == PlanObstacle::Kind::joint_speed ||
+                    obstacle.kind == PlanObstacle::Kind::acceleration ||
+                    obstacle.kind == PlanObstacle::Kind::reach;
+           });
+  }
+
+  [[nodiscard]] bool is_a_little_beside() const {
+    const PlanReport& report = planned_.report;
+    return !report.is_reachable && !report.obstacles.empty() &&
+           report.obstacles.front().kind == PlanObstacle::Kind::wound &&
+           report.hausdorff < kALittle * report.tolerance;
+  }
+
+  /// Fits a spline to a track that aims at `aimed_`, and tears.
+  Status make(const Track& track, const TargetPath& path, BladeChain& chain) {
     PlanReport& report = planned_.report;
     report.obstacles.clear();
     slowdown_ = 1;
+    is_fitted_ = false;
     if (!check_reach(chain, track.values)) return {};
     Result<JointSpline> spline = fit(chain, track);
     if (!spline) return spline.error();
+    is_fitted_ = true;
     planned_.trajectory = trajectory_of(*spline, chain, Timeline(timing_), limits_.values);
     check_rates(chain);
     check_pairs(*spline, chain);
@@ -279,13 +327,13 @@ class Planner {
     PlanReport& report = planned_.report;
     KeptAway kept_away{tool_.shapes, {}, options_.clearance};
     report.least_clearance = std::numeric_limits<double>::infinity();
-    std::vector<TargetSample> wanted = samples_;
+    std::vector<TargetSample> wanted = aimed_;
     for (std::size_t i = 0; i < wanted.size(); ++i) wanted[i].handle = track.handles[i];
     JointSpline spline =
         spline_through(track.values, wanted, Timeline(timing_).knots(), limits_.values);
     for (int round = 0;; ++round) {
       Result<JointSpline> fitted =
-          fit_spline(chain, wanted, scales_, limits_, kept_away, std::move(spline));
+          fit_spline(chain, wanted, aim_scales_, limits_, kept_away, std::move(spline));
       if (!fitted || !clearance_->is_needed()) return fitted;
       spline = std::move(*fitted);
       const std::vector<NearPlace> near = clearance_->find(
@@ -351,8 +399,8 @@ class Planner {
   bool check_fit(const JointSpline& spline, BladeChain& chain) {
     PlanReport& report = planned_.report;
     std::vector<Values> values;
-    for (const TargetSample& sample : samples_) values.push_back(spline.at(sample.time));
-    const ReachedPart part = reached_part(chain, samples_, values, report.tolerance);
+    for (const TargetSample& sample : aimed_) values.push_back(spline.at(sample.time));
+    const ReachedPart part = reached_part(chain, aimed_, values, report.tolerance);
     if (part.is_whole) return true;
     const bool has_part = part.end > part.first;
     report.first_share = has_part ? samples_[part.first].share : 0;
@@ -406,6 +454,7 @@ class Planner {
     report.hausdorff_in_clips = measured->hausdorff_in_clips;
     report.torn = measured->torn;
     wound_share_ = measured->farthest_share;
+    missed_by_ = measured->missed_by;
     if (gape_ > 0 && report.hausdorff <= report.tolerance) return settle(path.length());
     return {};
   }
@@ -426,6 +475,10 @@ class Planner {
   static constexpr double kNearLimit = 0.9;  ///< Share of a limit that is used up.
   static constexpr double kSlower = 1.15;
   static constexpr double kFaster = 10;  ///< What speeds are relaxed by.
+  static constexpr double kLeansMore = 4;
+  static constexpr std::uint64_t kWalks = 2;  ///< From other starts, if none makes the curve.
+  static constexpr double kALittle = 4;       ///< Tolerances.
+  static constexpr int kMostCorrections = 2;
 
   const std::shared_ptr<const Character>& character_;
   PlanTiming timing_;
@@ -434,6 +487,10 @@ class Planner {
   ErrorScales scales_;
   SplineLimits limits_;
   std::vector<TargetSample> samples_;
+  std::vector<TargetSample> aimed_;  ///< Where the blade is sent: `samples_`, or beside them.
+  ErrorScales aim_scales_;
+  bool is_fitted_ = false;
+  std::vector<Vec2d> missed_by_;  ///< WoundMeasures, of the last tear.
   std::optional<Clearance> clearance_;
   double longest_ = 0, slowdown_ = 1;
   double gape_ = 0;         ///< WoundTarget::gape.

@@ -187,6 +187,17 @@ Result<TargetPath> TargetPath::create(const std::shared_ptr<const Character>& ch
   return path;
 }
 
+Vec3d direction_at(const Vec3d& before, const Vec3d& behind, const Vec3d& normal) {
+  Vec3d along = behind - before;
+  along -= along.dot(normal) * normal;
+  return along.norm() > 1e-15 ? Vec3d(along.normalized()) : Vec3d::Zero();
+}
+
+void TargetPath::aim_beside(std::span<const Vec2d> offsets) {
+  beside_.resize(anchors_.size(), Vec2d::Zero());
+  for (std::size_t i = 0; i < beside_.size() && i < offsets.size(); ++i) beside_[i] += offsets[i];
+}
+
 Status TargetPath::pose(const ModelPose& pose, PosedPath& posed) const {
   posed.places.resize(anchors_.size());
   posed.normals.resize(anchors_.size());
@@ -219,11 +230,14 @@ void TargetPath::sample(const PosedPath& posed, double standoff, TargetSample& s
   const auto shifted = [&](std::ptrdiff_t by) -> Vec3d {
     return (1 - part) * places[held(middle - 1 + by)] + part * places[held(middle + by)];
   };
-  Vec3d along = shifted(kTangentWindow) - shifted(-kTangentWindow);
   sample.place = (1 - part) * places[next - 1] + part * places[next];
   sample.normal = normal.norm() > 1e-12 ? Vec3d(normal.normalized()) : Vec3d::UnitY();
-  along -= along.dot(sample.normal) * sample.normal;
-  along = along.norm() > 1e-15 ? Vec3d(along.normalized()) : Vec3d::Zero();
+  const Vec3d along =
+      direction_at(shifted(-kTangentWindow), shifted(kTangentWindow), sample.normal);
+  if (!beside_.empty()) {
+    const Vec2d beside = mixed(beside_);
+    sample.place += beside.x() * along + beside.y() * sample.normal.cross(along);
+  }
   const double angle = mixed(angle_);
   sample.handle = (std::sin(angle) * sample.normal + std::cos(angle) * along).normalized();
   const double to_end = std::min(sample.share, 1 - sample.share);

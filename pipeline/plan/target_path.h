@@ -27,6 +27,10 @@ struct TargetSample {
   bool is_full = false;   ///< Whether `depth` is that.
 };
 
+/// The direction of a run of places at one of them, within the surface: from a place before to one
+/// behind; unit length, or zero.
+[[nodiscard]] Vec3d direction_at(const Vec3d& before, const Vec3d& behind, const Vec3d& normal);
+
 /// A TargetPath in a pose.
 struct PosedPath {
   std::vector<Vec3d> places, normals;  ///< Of its anchors.
@@ -45,6 +49,10 @@ class TargetPath {
 
   [[nodiscard]] bool is_closed() const { return is_closed_; }
 
+  /// Moves what samples aim at, besides what was moved before: metres along the curve and, across
+  /// it, towards normal x direction, one per anchor. Anchors and length stay as they are.
+  void aim_beside(std::span<const Vec2d> offsets);
+
   /// @param posed  written.
   Status pose(const ModelPose& pose, PosedPath& posed) const;
   /// Where the blade shall be at `sample.share` and `sample.lift`; its time stays as it is.
@@ -57,6 +65,7 @@ class TargetPath {
   std::vector<SurfaceAnchor> anchors_;
   std::vector<double> along_;          ///< Length from the begin to each anchor, metres.
   std::vector<double> depth_, angle_;  ///< At each anchor.
+  std::vector<Vec2d> beside_;          ///< Offsets of the aim; empty: none.
   bool is_closed_ = false;
   std::optional<PosedPlaces> places_;  ///< The anchors.
 };

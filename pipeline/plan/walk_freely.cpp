@@ -13,11 +13,11 @@
 namespace sunder::plan {
 namespace {
 
-constexpr std::size_t kWidth = 16;       ///< Places that are kept at an instant.
+constexpr std::size_t kWidth = 8;        ///< Places that are kept at an instant.
 constexpr int kChildren = 6;             ///< That are tried from each of them.
 constexpr std::uint32_t kFreeTries = 8;  ///< Random starts per wanted seed.
-constexpr std::size_t kStarts = 16;      ///< That are walked from.
-constexpr int kMostTried = 16'000;       ///< Places in a round.
+constexpr std::size_t kStarts = 24;      ///< That are walked from.
+constexpr int kMostTried = 24'000;       ///< Places in a round.
 constexpr int kRounds = 3;               ///< Each begins where the one before came no farther.
 constexpr std::size_t kMostFreeTracks = 3;
 constexpr double kOfSpeed = 0.85;      ///< Share of the limits of speed that a walk uses.
@@ -55,7 +55,7 @@ Eigen::Vector3d lean_of(const Vec3d& from, const Vec3d& to) {
 class FreeWalk {
  public:
   FreeWalk(BladeChain& chain, const TrackSearch& search, const WalkRules& rules)
-      : chain_(chain), search_(search), rules_(rules) {}
+      : chain_(chain), search_(search), rules_(rules), state_(kWalkSeed + rules.seed) {}
 
   std::vector<Track> run() {
     std::size_t start = 0;
@@ -252,7 +252,7 @@ class FreeWalk {
   BladeChain& chain_;
   const TrackSearch& search_;
   const WalkRules& rules_;
-  std::uint64_t state_ = kWalkSeed;
+  std::uint64_t state_;
   std::size_t farthest_ = 0;
   int tried_ = 0;
 };

@@ -1,6 +1,10 @@
 #include <sunder/particles/fitted_colliders.h>
+#include <sunder/skinning/pose.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -65,7 +69,79 @@ TEST(FittedColliders, are_of_the_shape_that_fits_best) {
   }
 }
 
+/// A box of given corners, with 12 triangles, appended to a mesh of one bone.
+void add_box(Mesh& mesh, const Vec3f& low, const Vec3f& high) {
+  const auto first = static_cast<Index>(mesh.positions.size());
+  for (Index i = 0; i < 8; ++i)
+    mesh.positions.emplace_back((i & 1U) != 0 ? high.x() : low.x(),
+                                (i & 2U) != 0 ? high.y() : low.y(),
+                                (i & 4U) != 0 ? high.z() : low.z());
+  const std::array<std::array<Index, 4>, 6> faces = {
+      {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}};
+  for (const auto& face : faces) {
+    mesh.triangles.push_back({first + face[0], first + face[1], first + face[2]});
+    mesh.triangles.push_back({first + face[0], first + face[2], first + face[3]});
+  }
+}
+
+TEST(FittedColliders, of_a_bent_link_are_two_boxes) {
+  Character bent;
+  bent.meshes.resize(1);
+  add_box(bent.meshes[0], Vec3f(0, 0, 0), Vec3f(4, 1, 1));
+  add_box(bent.meshes[0], Vec3f(0, 2, 0), Vec3f(1, 6, 1));
+  bent.meshes[0].submeshes = {{"link", kNone}};
+  bent.meshes[0].triangle_submesh.assign(bent.meshes[0].triangles.size(), 0);
+  test::rig_along(bent, 1);
+  const auto one = fit_colliders(bent), several = fit_colliders(bent, 0.1, 5);
+  ASSERT_TRUE(one && several) << several.error().text();
+  ASSERT_EQ(one->size(), 1u);
+  ASSERT_EQ(several->size(), 2u);
+  double volume = 0;
+  for (const BoneCollider& of : *several) {
+    EXPECT_EQ(of.collider.friction, 0.1);
+    volume += volume_of(of.collider);
+  }
+  EXPECT_NEAR(volume, 8, 0.01);
+  EXPECT_GT(volume_of(one->at(0).collider), 15);
+}
+
+TEST(FittedColliders, hold_each_triangle_in_one_shape) {
+  Character ball = test::make_bumpy_ball(1500);
+  for (Vec3f& position : ball.meshes[0].positions)  // bent
+    position =
+        Vec3f(3 * position.x(), position.y() + 2 * position.x() * position.x(), position.z());
+  test::rig_along(ball, 2);
+  double before = 1e9;
+  for (const std::uint32_t most : {1u, 2u, 4u, 8u}) {
+    const auto fitted = fit_colliders(ball, 0, most);
+    ASSERT_TRUE(fitted) << fitted.error().text();
+    EXPECT_LE(fitted->size(), 2 * most);
+    double volume = 0;
+    for (const BoneCollider& of : *fitted) volume += volume_of(of.collider);
+    EXPECT_LT(volume, 1.0001 * before) << most;
+    before = volume;
+    const ModelPose pose = *rest_pose(ball);
+    const auto bone_of = [&](Index v) {
+      const auto influences = ball.meshes[0].weights.of(v);
+      return ball.skins[0]
+          .bones[std::ranges::max_element(influences, {}, &Influence::weight)->slot];
+    };
+    for (const Triangle& corners : ball.meshes[0].triangles) {
+      const Index bone = bone_of(corners[0]);
+      if (bone_of(corners[1]) != bone || bone_of(corners[2]) != bone) continue;
+      EXPECT_TRUE(std::ranges::any_of(*fitted, [&](const BoneCollider& of) {
+        const Collider posed = posed_collider(of, pose.model_from_bone[of.bone]);
+        return of.bone == bone && std::ranges::all_of(corners, [&](Index v) {
+                 const Vec3d place = ball.meshes[0].positions[v].cast<double>();
+                 return distance_to(posed, place).distance < 1e-5;
+               });
+      }));
+    }
+  }
+}
+
 TEST(FittedColliders, faults_are_named) {
+  EXPECT_FALSE(fit_colliders(test::make_sheet(2), 0, 0));
   EXPECT_FALSE(fit_colliders(test::make_sheet(2), -1));
   EXPECT_FALSE(fit_colliders(test::make_sheet(2), std::nan("")));
   const auto none = fit_colliders(Character());

@@ -169,14 +169,17 @@ TEST(LinkPairs, that_stop_the_blade_are_both_named) {
   const PlanTiming timing = while_tube_bends();
   PlanTool tool = test::six_axis_arm(Vec3d(0.2, 0.2, 1.0));
   const WoundTarget target = oblique_curve(0.6);
-  tool.shapes = {capsule(3, 0.04, -0.3, 0.4)};  // with a counterweight
+  // A ball of the base before the tube.
+  BoneCollider before{0, {Collider::Sphere{0.05}}};
+  before.collider.place = tool.world_from_root.inverse() * Vec3d(0, 0.65, 0.63);
+  tool.shapes = {before};
   const auto free = plan_motion(bent_tube(), target, timing, tool);
   ASSERT_TRUE(free && free->report.is_reachable);
   EXPECT_EQ(free->report.least_self_clearance, std::numeric_limits<double>::infinity());
-  BoneCollider wall{0,
-                    {Collider::Box{Vec3d(1.6, 1, 0.01)}}};  // of the base, between it and the tube
-  wall.collider.place = Vec3d(0, 0, -0.3);
-  tool.shapes.push_back(wall);
+  // One of the blade's link, 0.2 behind the tip: at the curve they cannot but overlap.
+  BoneCollider around{6, {Collider::Sphere{0.4}}};
+  around.collider.place = Vec3d(0, -0.1, 0);
+  tool.shapes.push_back(around);
   const auto stopped = plan_motion(bent_tube(), target, timing, tool);
   ASSERT_TRUE(stopped) << stopped.error().text();
   ASSERT_FALSE(stopped->report.is_reachable);
@@ -184,7 +187,7 @@ TEST(LinkPairs, that_stop_the_blade_are_both_named) {
   const PlanObstacle& obstacle = stopped->report.obstacles[0];
   EXPECT_EQ(obstacle.kind, PlanObstacle::Kind::self_collision);
   const std::vector<std::string> named = {obstacle.value, obstacle.other};
-  EXPECT_THAT(named, testing::UnorderedElementsAre("base", "elbow"));
+  EXPECT_THAT(named, testing::UnorderedElementsAre("base", "twist"));
 }
 
 TEST(LinkPairs, of_a_joint_with_several_axes_are_neighbours) {

@@ -64,6 +64,28 @@ TEST_F(PlanCommand, an_arm_makes_the_wound_and_tear_makes_it_again) {
   EXPECT_EQ(bytes("plan.csv"), first);
 }
 
+TEST_F(PlanCommand, like_a_torn_model_makes_its_wound_again) {
+  (void)curve();
+  ASSERT_EQ(
+      plan({"--hand", path("hand.urdf"), "--tear", path("torn.glb"), "--report", path("plan.json")})
+          .exit_code,
+      0);
+  const CommandResult like =
+      run_sunder({"plan", model(), "--like", path("torn.glb"), "--like-depth", "2cm", "--hand",
+                  path("again.urdf"), "-o", path("again.csv"), "--report", path("again.json")});
+  ASSERT_EQ(like.exit_code, 0) << like.err;
+  const json first = read_json("plan.json"), again = read_json("again.json");
+  EXPECT_EQ(again["curve"], path("torn.glb"));
+  const double length = first["curve_length"].get<double>();
+  EXPECT_NEAR(again["curve_length"].get<double>(), length, 0.1 * length);  // of another pose
+  const CommandResult whole = run_sunder(
+      {"plan", model(), "--like", model(), "--hand", path("again.urdf"), "-o", path("again.csv")});
+  expect_usage_error(whole, "there are no lips of a tear");
+  expect_usage_error(
+      run_sunder({"plan", model(), "--hand", path("again.urdf"), "-o", path("again.csv")}),
+      "--curve or --like");
+}
+
 TEST_F(PlanCommand, a_hand_is_written_as_a_robot) {
   (void)curve();
   const CommandResult planned = plan({"--hand", path("hand.urdf"), "--hand-blade", "12cm", "--tear",

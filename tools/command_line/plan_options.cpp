@@ -37,6 +37,22 @@ void add_timing(CLI::App& verb, PlanRequest& request) {
       ->capture_default_str();
 }
 
+void add_curve(CLI::App& verb, PlanRequest& request) {
+  CLI::Option* const curve =
+      verb.add_option("--curve", request.curve, "JSON file: the curve on the surface, depth, angle")
+          ->type_name("FILE");
+  CLI::Option* const like =
+      verb.add_option("--like", request.like,
+                      "In place of a curve, a torn model: the wound that it has, by bones")
+          ->type_name("FILE")
+          ->excludes(curve);
+  takes(verb.add_option("--like-depth", request.like_depth, "Depth of the blade for --like"),
+        kLength, Quantity::length)
+      ->type_name("LENGTH")
+      ->capture_default_str()
+      ->needs(like);
+}
+
 void add_outputs(CLI::App& verb, PlanRequest& request) {
   verb.add_option("-o,--output", request.robot.trajectory,
                   "The trajectory: CSV, for sunder tear --trajectory")
@@ -65,6 +81,8 @@ void add_score(CLI::App& verb, PlanRequest& request, CLI::Option* hand) {
 
 /// What the options need of one another.
 void check_together(const CLI::App& verb, const PlanRequest& request) {
+  if (verb.count("--curve") + verb.count("--like") == 0)
+    throw CLI::RequiredError("--curve or --like");
   if (!request.score && verb.count("--output") == 0) throw CLI::RequiredError("--output");
   if (!request.score && verb.count("--robot") + verb.count("--hand") == 0)
     throw CLI::RequiredError("--robot or --hand");
@@ -81,9 +99,7 @@ CLI::App* add_plan(CLI::App& app, PlanRequest& request) {
   CLI::App* const verb = app.add_subcommand(
       "plan", "Find the motion of a robot or a hand that makes a wound on a moving model");
   verb->add_option("MODEL", request.model, "The model")->type_name("FILE")->required();
-  verb->add_option("--curve", request.curve, "JSON file: the curve on the surface, depth, angle")
-      ->type_name("FILE")
-      ->required();
+  add_curve(*verb, request);
   CLI::Option* const robot =
       add_placed_robot(*verb, request.robot, "URDF file of the robot that carries the blade");
   CLI::Option* const hand =

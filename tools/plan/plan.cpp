@@ -25,7 +25,9 @@ namespace {
 /// The first output that cannot be written, or would overwrite a file that is read; empty if there
 /// is none.
 std::string fault_of_outputs(const PlanRequest& request) {
-  std::vector<NamedFile> inputs = {{"MODEL", request.model}, {"--curve", request.curve}};
+  std::vector<NamedFile> inputs = {{"MODEL", request.model}};
+  if (!request.curve.empty()) inputs.push_back({"--curve", request.curve});
+  if (request.like) inputs.push_back({"--like", *request.like});
   std::vector<NamedFile> outputs;
   if (!request.robot.trajectory.empty()) outputs.push_back({"--output", request.robot.trajectory});
   if (request.score) inputs.push_back({"--score", *request.score});
@@ -42,7 +44,8 @@ std::string fault_of_outputs(const PlanRequest& request) {
 ExitCode make_hand(const PlanRequest& request, PlanInputs& run) {
   Result<PlanTool> hand =
       free_hand(run.loaded.character, run.target, run.timing, request.hand_blade);
-  if (!hand) return complain(request.curve.string(), hand.error(), ExitCode::usage);
+  if (!hand)
+    return complain(request.like.value_or(request.curve).string(), hand.error(), ExitCode::usage);
   run.tool = std::move(*hand);
   // Robots have z up and characters y: what load_robot() turns.
   Affine3d model_from_file = Affine3d::Identity();

@@ -2,6 +2,7 @@
 
 #include <sunder/skinning/pose.h>
 
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +14,26 @@
 #include "tools/plan/curve_file.h"
 
 namespace sunder::tools {
+namespace {
+
+/// One shape around a bent link reaches into its neighbours.
+constexpr std::uint32_t kShapesPerLink = 4;
+
+/// The curve of the wound of another model.
+ExitCode read_wound(const PlanRequest& request, const Messages& messages, PlanInputs& inputs) {
+  const std::string& file = request.like->string();
+  const Result<LoadedCharacter> other =
+      load_character(*request.like, load_options(request.reading));
+  if (!other) return complain(file, other.error(), ExitCode::unreadable_input);
+  warn_of_repairs(file, other->report, messages);
+  Result<WoundTarget> target = wound_like(*other->character, inputs.loaded.character);
+  if (!target) return complain(file, target.error(), ExitCode::usage);
+  inputs.target = std::move(*target);
+  inputs.target.depth = {request.like_depth};
+  return ExitCode::ok;
+}
+
+}  // namespace
 
 ExitCode read_character(const PlanRequest& request, const Messages& messages, PlanInputs& inputs) {
   Result<LoadedCharacter> loaded = load_character(request.model, load_options(request.reading));
@@ -30,6 +51,7 @@ ExitCode read_character(const PlanRequest& request, const Messages& messages, Pl
   inputs.timing.clip_speed = request.robot.clip_speed;
   const Result<ModelPose> posed = make_pose(character, pose->spec);
   if (!posed) return complain("--pose", posed.error(), ExitCode::usage);
+  if (request.like) return read_wound(request, messages, inputs);
   Result<WoundTarget> target = read_curve(request.curve, inputs.loaded.character, *posed);
   if (!target) return complain(request.curve.string(), target.error(), ExitCode::usage);
   inputs.target = std::move(*target);
@@ -55,7 +77,8 @@ ExitCode read_robot(const PlanRequest& request, const Messages& messages, PlanIn
                                     request.robot.link.c_str()),
                     ExitCode::usage, name_advice(request.robot.link, "links", names));
   if (loaded->model.character != nullptr) {
-    Result<std::vector<BoneCollider>> shapes = fit_colliders(*loaded->model.character);
+    Result<std::vector<BoneCollider>> shapes =
+        fit_colliders(*loaded->model.character, 0, kShapesPerLink);
     if (!shapes) return complain(file, shapes.error(), ExitCode::unreadable_input);
     inputs.tool.shapes = std::move(*shapes);
   }

@@ -76,7 +76,7 @@ Json plan_json(const PlanRequest& request, const PlanReport& report,
                const std::optional<PlannedBase>& base) {
   Json json = {{"sunder_plan", 1},
                {"model", request.model.string()},
-               {"curve", request.curve.string()},
+               {"curve", request.like.value_or(request.curve).string()},
                {"robot", (request.hand ? *request.hand : request.robot.robot).string()},
                {"pose", request.robot.pose},
                {"clip_speed", request.robot.clip_speed},

@@ -12,6 +12,8 @@ namespace sunder::tools {
 /// sunder plan: finds the motion of a robot or a hand that makes a wound.
 struct PlanRequest {
   std::filesystem::path model, curve;
+  std::optional<std::filesystem::path> like;  ///< In place of a curve: a model with a wound.
+  double like_depth = 0.01;                   ///< How deep the blade goes for it, metres.
   /// The robot, its blade and place, the pose and the clip's speed; the trajectory is the output.
   RobotTearRequest robot;
   std::optional<std::filesystem::path> hand;  ///< Output: a hand as URDF, in place of a robot.

@@ -108,7 +108,7 @@ Json known(const std::optional<double>& number) { return number ? Json(*number) 
 Json score_json(const PlanRequest& request, const StrokeScore& score) {
   Json json = {{"sunder_score", 1},
                {"model", request.model.string()},
-               {"curve", request.curve.string()},
+               {"curve", request.like.value_or(request.curve).string()},
                {"performed", request.score->string()},
                {"pose", request.robot.pose},
                {"clip_speed", request.robot.clip_speed},

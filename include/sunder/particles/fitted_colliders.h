@@ -16,15 +16,19 @@ struct BoneCollider {
 
 /// The ball, capsule or box of least volume, along the principal axes, around the vertices that
 /// each bone moves predominantly: colliders for the links of a robot, or the limbs of a character,
-/// that push the tissue of another one. One convex shape per bone; bones without vertices have
-/// none.
+/// that push the tissue of another one. Bones without vertices have none.
 ///
-/// @param character  satisfies validate_character(), or has no mesh.
-/// @param friction   of all colliders.
+/// @param character      satisfies validate_character(), or has no mesh.
+/// @param friction       of all colliders.
+/// @param most_per_bone  how many shapes a bone may have, >= 1. With more than one, a shape is cut
+///                       in two where that takes most off the volume, as long as it takes a
+///                       twentieth. Each triangle between a bone's vertices is within one
+///                       of its shapes.
 /// @return in the order of the bones; the first fault of the character; invalid_argument for the
-/// friction; limit_exceeded: out of memory. O(vertices), allocates.
-[[nodiscard]] SUNDER_API Result<std::vector<BoneCollider>> fit_colliders(const Character& character,
-                                                                         double friction = 0.0);
+/// friction or the number of shapes; limit_exceeded: out of memory. O(vertices x shapes),
+/// allocates.
+[[nodiscard]] SUNDER_API Result<std::vector<BoneCollider>> fit_colliders(
+    const Character& character, double friction = 0.0, std::uint32_t most_per_bone = 1);
 
 /// The collider in model space. @param model_from_bone  a rotation and a translation.
 [[nodiscard]] SUNDER_API Collider posed_collider(const BoneCollider& collider,

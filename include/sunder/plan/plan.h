@@ -40,6 +40,17 @@ struct WoundTarget {
   double gape = 0;
 };
 
+/// The curve on a character that is like the wound of another one: the longest run of lips of a
+/// tear without width and walls. In the rest poses each place is carried by the bones that move it:
+/// from joint to joint, turned and scaled as the limb below it; the nearest place of the surface is
+/// taken. Bones correspond by name, or by the name without namespace, case and separators; one
+/// without counterpart by the nearest above. Method: docs/plan.md.
+/// @param torn  the other character, as a torn file or TornModel::character() has it.
+/// @return depth, angle and gape are the defaults of WoundTarget; the first fault of a character;
+///         not_found if there are no such lips, or no bone corresponds. Allocates.
+[[nodiscard]] SUNDER_API Result<WoundTarget> wound_like(
+    const Character& torn, const std::shared_ptr<const Character>& character);
+
 /// When the character is in which pose, and how long the motion takes.
 struct PlanTiming {
   PoseSpec pose;           ///< Of the character when the motion begins.
@@ -59,9 +70,9 @@ struct PlanTool {
   MountedBlade blade;
   Affine3d world_from_root = Affine3d::Identity();  ///< In the character's model space.
   /// Shapes of links, bones being links: those that fit_colliders() finds around the robot's
-  /// character. They stay outside of the character but for those of the blade's link, and outside
-  /// of one another but for those of neighbours and those that overlap anyway: docs/plan.md. Links
-  /// without a shape may be anywhere.
+  /// character, better four per link than one. They stay outside of the character but for those of
+  /// the blade's link, and outside of one another but for those of neighbours and those that
+  /// overlap anyway: docs/plan.md. Links without a shape may be anywhere.
   std::vector<BoneCollider> shapes;
 };
 
