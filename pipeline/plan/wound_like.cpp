@@ -19,8 +19,8 @@ namespace sunder {
 namespace plan {
 namespace {
 
-constexpr std::size_t kPlaces = 48;     ///< Of the curve that results.
-constexpr double kShortestLimb = 1e-6;  ///< Of the diagonal.
+constexpr std::size_t kPlacesOfCurve = 48;  ///< Of the curve that results.
+constexpr double kShortestLimb = 1e-6;      ///< Of the diagonal.
 
 /// A name without namespace, case and separators.
 std::string plain_name(const std::string& name) {
@@ -125,8 +125,8 @@ std::vector<std::size_t> even_places(const std::vector<Vec3d>& places) {
   for (std::size_t i = 1; i < places.size(); ++i)
     along.push_back(along.back() + (places[i] - places[i - 1]).norm());
   std::vector<std::size_t> chosen;
-  for (std::size_t k = 0; k < kPlaces; ++k) {
-    const double wanted = along.back() * static_cast<double>(k) / (kPlaces - 1);
+  for (std::size_t k = 0; k < kPlacesOfCurve; ++k) {
+    const double wanted = along.back() * static_cast<double>(k) / (kPlacesOfCurve - 1);
     const auto at = std::min(std::lower_bound(along.begin(), along.end(), wanted), along.end() - 1);
     const auto index = static_cast<std::size_t>(at - along.begin());
     if (chosen.empty() || index > chosen.back()) chosen.push_back(index);
