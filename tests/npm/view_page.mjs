@@ -13,6 +13,7 @@ import { boxDistance, changedBy, drawn, launch, openPage, runsOtherScripts, sett
 const [mode, file, folder] = process.argv.slice(2);
 const browser = await launch();
 const facts = { errors: [], requests: [] };
+let downloads = null;  // the session that says how far saved files are
 
 /** The rectangle of the shown model, posed on the CPU. */
 const expected = (page) => page.evaluate(() => {
@@ -61,17 +62,21 @@ async function clickAt(page, x, y) {
   }, place, area.width, area.height);
 }
 
-/** Saves the log by the button; the file gets a name. */
+/** Saves the log by the button; the file gets a name when the browser says that all of it is written. */
 async function save(page, name) {
+  const written = new Promise((resolve, reject) => {
+    const tooLong = setTimeout(() => reject(new Error(`${name} was not saved in a minute`)), 60000);
+    const follow = ({ state }) => {
+      if (state === 'inProgress') return;
+      clearTimeout(tooLong);
+      downloads.off('Browser.downloadProgress', follow);
+      resolve();
+    };
+    downloads.on('Browser.downloadProgress', follow);
+  });
   await page.click('#save');
-  for (let tries = 0; tries < 200; ++tries) {
-    const found = readdirSync(folder).find((entry) => entry.endsWith('_ops.json'));
-    if (found) {
-      renameSync(join(folder, found), join(folder, name));
-      break;
-    }
-    await new Promise((resolve) => setTimeout(resolve, 50));
-  }
+  await written;
+  renameSync(join(folder, readdirSync(folder).find((entry) => entry.endsWith('_ops.json'))), join(folder, name));
   const text = readFileSync(join(folder, name), 'utf8');
   return text === await page.evaluate(() => sunder.list.text);
 }
@@ -228,8 +233,9 @@ async function testBones(page) {
 }
 
 async function testPlacing() {
-  const session = await browser.target().createCDPSession();
-  await session.send('Browser.setDownloadBehavior', { behavior: 'allow', downloadPath: folder });
+  downloads = await browser.target().createCDPSession();
+  await downloads.send('Browser.setDownloadBehavior',
+    { behavior: 'allow', downloadPath: folder, eventsEnabled: true });
   const page = await openPage(browser, file, facts);
   facts.title = await page.$eval('#title', (title) => title.textContent);
   facts.injected = await page.evaluate(() =>
