@@ -458,6 +458,8 @@ typedef struct sunder_scene_options {
   void* parallel_context;
   sunder_run_in_background background; /* null: a thread of the scene */
   void* background_context;
+  uint32_t wants_changes; /* 1: results keep lists of what they changed: sunder_get_change() */
+  uint32_t reserved;
 } sunder_scene_options;
 
 typedef struct sunder_spawn_options {
@@ -668,6 +670,11 @@ SUNDER_C_API sunder_status sunder_get_triangle_origins(sunder_scene scene, sunde
                                                        uint32_t mesh, uint32_t first,
                                                        sunder_triangle_origin* origins,
                                                        uint32_t most, uint32_t* count);
+/* Edges that welds closed, 2 points of the surface each, in the order of the welds: a later tear
+ * may have opened one again. A view, valid until the next call that changes the instance. Fails:
+ * SUNDER_NOT_FOUND as the last. */
+SUNDER_C_API sunder_status sunder_get_scars(sunder_scene scene, sunder_instance instance,
+                                            const uint32_t** points, uint32_t* count);
 /* The torn character as a GLB: the source document with the meshes that were torn. Pieces of
  * characters from arrays have plain materials. */
 SUNDER_C_API sunder_status sunder_save_instance(sunder_scene scene, sunder_instance instance,
@@ -876,6 +883,60 @@ typedef struct sunder_result {
 /* A view, valid until the next update. Ascending by command. */
 SUNDER_C_API sunder_status sunder_get_results(sunder_scene scene, const sunder_result** results,
                                               uint32_t* count);
+
+/* What one call changed in an instance, for programs that keep copies of its model or particles of
+ * their own. Views, valid until the next update. */
+typedef struct sunder_change {
+  uint32_t struct_size;
+  uint32_t first_point; /* surface points that were appended */
+  uint32_t point_count;
+  uint32_t mesh_count; /* that changed: sunder_get_mesh_change() */
+  uint32_t lip_count;
+  uint32_t left_count;
+  uint32_t right_count;
+  uint32_t weld_count;
+  const uint32_t* lips;  /* 2 points each that were one: left and right of the stroke, along it */
+  const uint32_t* left;  /* points on the left side of a gap, ascending */
+  const uint32_t* right; /* on its right side */
+  const uint32_t* welds; /* 2 points each that a weld made one: the one that is kept, and the other,
+                            which has no face any more. The undo of a weld lists the same. */
+} sunder_change;
+/* The part of it in one mesh. Vertices and triangles are only appended, and removed from the end by
+ * undo: the mesh now has first_vertex + vertex_count vertices, and as many triangles. Where new
+ * vertices come from: sunder_get_vertex_origins(). */
+typedef struct sunder_mesh_change {
+  uint32_t struct_size;
+  uint32_t mesh;
+  uint32_t first_vertex;
+  uint32_t vertex_count;
+  uint32_t first_triangle;
+  uint32_t triangle_count;
+  uint32_t rewritten_count;
+  uint32_t retired_count;
+  uint32_t released_count;
+  uint32_t returned_count;
+  uint32_t dirty_vertex_count; /* numbers of ranges */
+  uint32_t dirty_triangle_count;
+  const sunder_triangle_write*
+      rewritten;            /* triangles with other corners now, and those they had before */
+  const uint32_t* retired;  /* triangles that are drawn no more, ascending; also in `rewritten` */
+  const uint32_t* released; /* vertices that only a detached piece used, ascending */
+  const uint32_t* returned; /* by an undo */
+  const sunder_range* dirty_vertices;
+  const sunder_range* dirty_triangles;
+} sunder_mesh_change;
+
+/* How many changes a command of the last update made: none if it failed; undo and redo of a stroke
+ * make several. Fails: SUNDER_NOT_FOUND without sunder_scene_options.wants_changes, and for another
+ * command. */
+SUNDER_C_API sunder_status sunder_get_change_count(sunder_scene scene, sunder_command command,
+                                                   uint32_t* count);
+SUNDER_C_API sunder_status sunder_get_change(sunder_scene scene, sunder_command command,
+                                             uint32_t which, sunder_change* change);
+/* part: of sunder_change.mesh_count; ascending by mesh. */
+SUNDER_C_API sunder_status sunder_get_mesh_change(sunder_scene scene, sunder_command command,
+                                                  uint32_t which, uint32_t part,
+                                                  sunder_mesh_change* change);
 /* The piece of a detach in the last update. */
 SUNDER_C_API sunder_status sunder_take_piece(sunder_scene scene, sunder_command command,
                                              sunder_piece* piece);

@@ -92,6 +92,7 @@ sunder_status submit(sunder_scene scene, sunder_instance instance, SceneCommand 
   if ((flags & ~std::uint32_t{SUNDER_IN_BACKGROUND}) != 0)
     return fail(SUNDER_INVALID_ARGUMENT, kNone, "`flags` is 0x%x", flags);
   CommandOptions options;
+  options.wants_changes = object->wants_changes;
   options.in_background = (flags & SUNDER_IN_BACKGROUND) != 0;
   const auto submitted = object->scene.submit(instance_of(instance), std::move(command), options);
   if (!submitted) return report(submitted.error());

@@ -1,18 +1,23 @@
+#include "bindings/c/numbers.h"
 #include "bindings/c/scene.h"
 #include "bindings/c/structs.h"
 
 namespace sunder::c {
 namespace {
 
-/// Finds the torn model of an instance.
-sunder_status find_model(sunder_scene scene, sunder_instance instance, std::uint32_t mesh,
-                         const TornModel*& model) {
-  Found found;
-  SUNDER_C_TRY(find_mesh(scene, instance, mesh, found));
+sunder_status model_of(const Found& found, const TornModel*& model) {
   model = found.instance->model();
   if (model != nullptr) return SUNDER_OK;
   return fail(SUNDER_NOT_FOUND, kNone,
               "nothing was torn: needs an operation, or sunder_prepare_to_tear()");
+}
+
+/// Finds the torn model of an instance that has this mesh.
+sunder_status find_model(sunder_scene scene, sunder_instance instance, std::uint32_t mesh,
+                         const TornModel*& model) {
+  Found found;
+  SUNDER_C_TRY(find_mesh(scene, instance, mesh, found));
+  return model_of(found, model);
 }
 
 /// Writes origin_of(index) of the elements from `first` on, at most `most`, and their number.
@@ -78,6 +83,22 @@ sunder_status sunder_get_triangle_origins(sunder_scene scene, sunder_instance in
     };
     return write_origins("triangle", first, 0, torn.triangle_count(), origins, most, count,
                          origin_of);
+  });
+}
+
+sunder_status sunder_get_scars(sunder_scene scene, sunder_instance instance,
+                               const uint32_t** points, uint32_t* count) {
+  return guarded([&]() -> sunder_status {
+    Found found;
+    const sunder::TornModel* model = nullptr;
+    SUNDER_C_TRY(find_instance(scene, instance, found));
+    SUNDER_C_TRY(model_of(found, model));
+    if (points == nullptr) return null_pointer("points");
+    if (count == nullptr) return null_pointer("count");
+    const auto scars = sunder::scars_of(*model);
+    *points = numbers_of(scars);
+    *count = count_of(scars);
+    return SUNDER_OK;
   });
 }
 

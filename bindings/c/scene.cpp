@@ -74,7 +74,9 @@ sunder_status sunder_create_scene(const sunder_scene_options* options, sunder_sc
     auto created = sunder::Scene::create(
         options_of(options == nullptr ? sunder_default_scene_options() : *options));
     if (!created) return report(created.error());
-    return add(std::make_unique<SceneObject>(std::move(*created)), scene);
+    auto object = std::make_unique<SceneObject>(std::move(*created));
+    object->wants_changes = options != nullptr && options->wants_changes != 0;
+    return add(std::move(object), scene);
   });
 }
 

@@ -24,6 +24,7 @@ struct SceneObject : Object {
   explicit SceneObject(Scene of) : scene(std::move(of)) {}
 
   Scene scene;
+  bool wants_changes = false;  ///< CommandOptions of all commands.
   /// The assets of all instances that were spawned or restored.
   std::vector<std::shared_ptr<const AssetParts>> assets;
   std::uint64_t change = 0;  ///< Counts the calls that may change an instance.

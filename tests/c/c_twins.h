@@ -31,6 +31,7 @@ class Twins {
     EXPECT_DONE(sunder_create_asset(c_character, &c_options, &c_asset));
     sunder_scene_options of_scene = sunder_default_scene_options();
     of_scene.threads = 1;
+    of_scene.wants_changes = 1;
     EXPECT_DONE(sunder_create_scene(&of_scene, &c_scene));
     EXPECT_DONE(sunder_spawn(c_scene, c_asset, nullptr, &c_id));
     if (character.clips.empty()) return;
@@ -201,7 +202,9 @@ inline void submit_random(Twins& twins, Random& random) {
       command = tear;
     }
   }
-  ASSERT_TRUE(twins.scene->submit(twins.id, command));
+  CommandOptions options;
+  options.wants_changes = true;
+  ASSERT_TRUE(twins.scene->submit(twins.id, command, options));
 }
 
 }  // namespace sunder::test
