@@ -13,7 +13,6 @@
 #include "bench/harness/json_object.h"
 #include "bench/harness/measure.h"
 #include "c/c_objects.h"
-#include "support/machine/allocation_count.h"
 #include "support/models/rigs.h"
 
 namespace sunder::bench {
@@ -92,6 +91,18 @@ struct Figures {
   std::uint64_t allocations = 0;  ///< In a warm frame.
 };
 
+std::uint64_t allocated = 0;
+
+/// Counts what the C library allocates from now on.
+void count_allocations() {
+  (void)sunder_set_allocator(
+      [](void*, std::uint64_t bytes, std::uint64_t alignment) {
+        ++allocated;
+        return std::aligned_alloc(alignment, (bytes + alignment - 1) & ~(alignment - 1));
+      },
+      [](void*, void* memory, std::uint64_t, std::uint64_t) { std::free(memory); }, nullptr);
+}
+
 double ns_of_call(int calls, const auto& call) {
   return 1e9 * median(sample({.runs = 31}, [&] {
            return seconds_of([&] {
@@ -102,6 +113,7 @@ double ns_of_call(int calls, const auto& call) {
 }
 
 Figures measure() {
+  count_allocations();
   const Character character = test::make_tube(120, 110, 12);  // 13 k vertices
   Scenes scenes(character);
   test::Random random(1);
@@ -116,9 +128,9 @@ Figures measure() {
     of_cpp.push_back(scenes.frame_of_cpp());
   }
   figures.overhead_ratio = median(of_c) / median(of_cpp);
-  const std::uint64_t before = test::allocation_count();
+  const std::uint64_t before = allocated;
   scenes.frame_of_c();
-  figures.allocations = test::allocation_count() - before;
+  figures.allocations = allocated - before;
   std::uint32_t level = 0;
   figures.call_ns = ns_of_call(
       10'000, [&] { expect(sunder_get_shown_level(scenes.c_scene, scenes.c_id, &level)); });

@@ -75,9 +75,10 @@ enum {
 
 /* Parts that a build may lack. */
 enum {
-  SUNDER_FEATURE_THREADS = 1,   /* scenes may have threads of their own */
-  SUNDER_FEATURE_HULLS = 2,     /* sunder_get_piece_hulls() */
-  SUNDER_FEATURE_VALIDATION = 4 /* sunder_validate(), sunder_validate_instance() */
+  SUNDER_FEATURE_THREADS = 1,    /* scenes may have threads of their own */
+  SUNDER_FEATURE_HULLS = 2,      /* sunder_get_piece_hulls() */
+  SUNDER_FEATURE_VALIDATION = 4, /* sunder_validate(), sunder_validate_instance() */
+  SUNDER_FEATURE_ALLOCATOR = 8   /* sunder_set_allocator() */
 };
 
 /* Version of the library, as SUNDER_C_VERSION. */
@@ -94,6 +95,22 @@ SUNDER_C_API const char* sunder_status_name(sunder_status status);
 SUNDER_C_API const char* sunder_last_error(void);
 /* The element of which it speaks, or SUNDER_NONE. */
 SUNDER_C_API uint32_t sunder_last_error_index(void);
+
+/* ---- Memory ---- */
+
+/* Memory for `bytes`, which any thread may ask for; null: there is none, and the call that needs it
+ * fails by SUNDER_LIMIT_EXCEEDED. alignment: a power of two. */
+typedef void* (*sunder_allocate)(void* context, uint64_t bytes, uint64_t alignment);
+/* Takes it back, on any thread, with the same numbers. */
+typedef void (*sunder_release)(void* context, void* memory, uint64_t bytes, uint64_t alignment);
+
+/* What later calls allocate comes from the caller; a scene keeps the allocator with which it was
+ * created. Memory goes back to where it came from, so that the functions and their context are
+ * needed until the process ends. allocate and release null: the heap again. Qhull allocates for
+ * itself. Fails: SUNDER_UNSUPPORTED_FEATURE without SUNDER_FEATURE_ALLOCATOR; SUNDER_NULL_POINTER
+ * if one of the functions is null. */
+SUNDER_C_API sunder_status sunder_set_allocator(sunder_allocate allocate, sunder_release release,
+                                                void* context);
 
 /* ---- Bytes ---- */
 

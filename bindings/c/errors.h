@@ -1,10 +1,13 @@
 #pragma once
 
+#include <sunder/core/memory_scope.h>
 #include <sunder/core/status.h>
 
 #include <new>
 #include <stdexcept>
 #include <sunder_c.h>
+
+#include "bindings/c/allocator.h"
 
 namespace sunder::c {
 
@@ -21,9 +24,10 @@ sunder_status null_pointer(const char* name);
 /// as a small one.
 sunder_status check_size(std::uint64_t size, const char* name);
 
-/// Runs the body of a call; no exception leaves it.
+/// Runs the body of a call, which allocates from the caller's allocator; no exception leaves it.
 template <class Body>
 sunder_status guarded(Body&& body) noexcept {
+  const MemoryScope scope(allocator());
   try {
     return body();
   } catch (const std::bad_alloc&) {

@@ -42,7 +42,7 @@ class Api:
         position, doc, last = 0, "", None
         pattern = re.compile(
             r"\s*(?:(?P<comment>/\*.*?\*/)|(?P<struct>typedef struct (\w+) \{(.*?)\} (\w+);)"
-            r"|(?P<enum>enum \{(.*?)\};)|(?P<callback>typedef (\w+) \(\*(\w+)\)\((.*?)\);)"
+            r"|(?P<enum>enum \{(.*?)\};)|(?P<callback>typedef ([\w* ]+?) ?\(\*(\w+)\)\((.*?)\);)"
             r"|(?P<alias>typedef (\w+)\s+(\w+);)|(?P<function>SUNDER_C_API ([\w* ]+?)\b(\w+)\((.*?)\);)|(?P<end>\}))", re.S)
         while position < len(body):
             if not body[position:].strip():
@@ -205,10 +205,13 @@ def calls(api):
     structs = {one["name"] for one in api["structs"]}
     defaults = {one["returns"]: one["name"] for one in api["functions"] if "_default_" in one["name"]}
     handles = {one["name"] for one in api["types"] if one["name"] != "sunder_status"}
+    callbacks = {one["name"] for one in api["callbacks"]}
 
     def argument(parameter):
         type_, name = parameter["type"], parameter["name"]
         bare = type_.replace("const ", "").rstrip("*")
+        if type_ in callbacks:
+            return "nullptr"
         if type_ in handles:
             return f"source.template handle<{type_}>(\"{type_}\")"
         if type_ == bare + "*" and bare in handles:

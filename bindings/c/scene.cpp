@@ -41,6 +41,7 @@ SceneOptions options_of(const sunder_scene_options& from) {
   options.threads = from.threads;
   options.background = {from.background, from.background_context};
   options.background_updates = from.background_updates;
+  options.memory = allocator();
   options.slower_below = {from.slower_below[0], from.slower_below[1]};
   return options;
 }

@@ -12,7 +12,8 @@ uint32_t sunder_version(void) { return SUNDER_C_VERSION; }
 uint32_t sunder_features(void) {
   return (sunder::kHasThreads ? SUNDER_FEATURE_THREADS : 0) |
          (sunder::has_convex_hulls() ? SUNDER_FEATURE_HULLS : 0) |
-         (SUNDER_C_VALIDATION ? SUNDER_FEATURE_VALIDATION : 0);
+         (SUNDER_C_VALIDATION ? SUNDER_FEATURE_VALIDATION : 0) |
+         (SUNDER_C_ALLOCATOR ? SUNDER_FEATURE_ALLOCATOR : 0);
 }
 
 sunder_status sunder_check_abi(uint32_t version, uint32_t features) {

@@ -26,7 +26,20 @@ constexpr std::size_t room_for_head(std::size_t alignment) {
 
 inline void* from_heap(std::size_t bytes, std::size_t alignment) noexcept {
   if (alignment <= __STDCPP_DEFAULT_NEW_ALIGNMENT__) return std::malloc(bytes);
+#if defined(_WIN32)
+  return _aligned_malloc(bytes, alignment);
+#else
   return std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
+#endif
+}
+
+inline void to_heap(void* begin, std::size_t alignment) noexcept {
+#if defined(_WIN32)
+  if (alignment > __STDCPP_DEFAULT_NEW_ALIGNMENT__) return _aligned_free(begin);
+#else
+  (void)alignment;
+#endif
+  std::free(begin);
 }
 
 /// @throws std::bad_alloc
@@ -54,7 +67,7 @@ inline void release(void* block, std::size_t alignment) noexcept {
   const Head head = *reinterpret_cast<Head*>(static_cast<std::byte*>(block) - sizeof(Head));
   void* const begin = static_cast<std::byte*>(block) - room;
   if (head.memory == nullptr) {
-    std::free(begin);
+    to_heap(begin, room);
     return;
   }
   const MemoryScope heap(nullptr);
