@@ -301,7 +301,7 @@ int main(int argc, char** argv) {
   const std::vector<MovingRig> rigs = moving_rigs();
   const std::vector<Arm> known = arms();
   Figures figures;
-  for (std::uint64_t seed = first; figures.cases < wanted && seed < 10'000; ++seed)
+  for (std::uint64_t seed = first; figures.cases < wanted && seed < first + 10'000; ++seed)
     if (const auto made = make_case(rigs, known, seed)) run_case(*made, seed, !is_summary, figures);
   print_summary(figures);
 }

@@ -14,6 +14,7 @@
 #include "pipeline/plan/check_inputs.h"
 #include "pipeline/plan/choose_tracks.h"
 #include "pipeline/plan/clearance.h"
+#include "pipeline/plan/confirm_causes.h"
 #include "pipeline/plan/find_obstacles.h"
 #include "pipeline/plan/fit_spline.h"
 #include "pipeline/plan/inverse_kinematics.h"
@@ -46,6 +47,16 @@ std::vector<double> sample_times(const std::vector<double>& knots) {
                                      static_cast<double>(kSamplesPerInterval));
   times.push_back(knots.back());
   return times;
+}
+
+/// The durations of a plan that failed, without leave to grow more.
+PlanTiming longest_tried(PlanTiming timing, const PlanReport& report) {
+  const double factor = report.cut / timing.cut;
+  timing.approach *= factor;
+  timing.cut *= factor;
+  timing.retreat *= factor;
+  timing.may_take_longer = false;
+  return timing;
 }
 
 /// One plan, step by step.
@@ -102,6 +113,7 @@ class Planner {
         samples_,      scales_, limits_, *clearance_, options_.clearance, planned_.report.tolerance,
         options_.seeds};
     std::vector<Track> tracks = follow_tracks(chain, search);
+    if (is_out_of_reach(chain, tracks[0])) return false;
     // What is told about the first track, unless a later one is followed.
     std::optional<PlannedMotion> first;
     double first_slowdown = 1;
@@ -135,6 +147,14 @@ class Planner {
     return false;
   }
 
+  /// Whether no values within limits bring the blade to the first place that the best track misses:
+  /// then no walk does. The report says why.
+  bool is_out_of_reach(BladeChain& chain, const Track& best) {
+    slowdown_ = 1;
+    if (check_reach(chain, best.values)) return false;
+    return !planned_.report.obstacles.empty();  // empty: other values reach it
+  }
+
   /// Whether speeds and accelerations, or the tear, are all that is in the way.
   static bool is_plain_reason(const PlannedMotion& planned) {
     return !planned.report.obstacles.empty() &&
@@ -151,14 +171,9 @@ class Planner {
   void name_cause(BladeChain& chain, const TrackSearch& search, const Track& best) {
     PlanReport& report = planned_.report;
     slowdown_ = 1;
-    const bool is_reached = check_reach(chain, best.values);
-    const std::vector<PlanObstacle> at_place = report.obstacles;  // empty: other values reach it
+    (void)check_reach(chain, best.values);  // for the part that is reached
     report.is_reachable = false;
     report.obstacles.clear();
-    if (!is_reached && !at_place.empty()) {
-      report.obstacles = at_place;
-      return;
-    }
     for (const Track& track : walk_freely(chain, search, {false, 1, 0})) {
       name_links(chain, track);
       if (!report.obstacles.empty()) return;
@@ -509,7 +524,17 @@ Result<PlannedMotion> plan_motion(const std::shared_ptr<const Character>& charac
   if (const Status status = plan::check_timing(timing, options); !status) return status;
   return or_out_of_memory([&]() -> Result<PlannedMotion> {
     if (const Status status = validate_character(*character); !status) return status;
-    return plan::Planner(character, timing, tool, options).run(target);
+    Result<PlannedMotion> planned = plan::Planner(character, timing, tool, options).run(target);
+    if (!planned || planned->report.is_reachable) return planned;
+    const PlanTiming tried = plan::longest_tried(timing, planned->report);
+    const Status status = plan::confirm_causes(
+        tool, options,
+        [&](const plan::FreedInputs& freed) {
+          return plan::Planner(character, tried, freed.tool, freed.options).run(target);
+        },
+        planned->report);
+    if (!status) return status;
+    return planned;
   });
 }
 
