@@ -9,6 +9,7 @@
 
 #include "bindings/c/bytes.h"
 #include "bindings/c/structs.h"
+#include "core/internal/wall_material.h"
 #include "io/internal/load_bytes.h"
 
 namespace sunder::c {
@@ -85,7 +86,8 @@ Result<Character> with_numbers(const Character& character, std::uint32_t mesh,
   std::vector<CustomAttribute>& attributes = changed.meshes[mesh].custom_attributes;
   auto place = std::ranges::find(attributes, name, &CustomAttribute::name);
   if (place == attributes.end()) place = attributes.insert(place, CustomAttribute{});
-  *place = {std::string(name), 1, true, {values.begin(), values.end()}};
+  const bool is_label = name == kWallMaterialAttribute;
+  *place = {std::string(name), 1, !is_label, {values.begin(), values.end()}};
   if (const Status status = validate_character(changed); !status) return status;
   return changed;
 }

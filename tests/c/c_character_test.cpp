@@ -118,6 +118,20 @@ TEST(CCharacter, files_have_attributes_that_were_added) {
   }
 }
 
+TEST(CCharacter, walls_get_no_materials_that_a_file_lacks) {
+  const Character tube = make_tube(6, 5, 3);
+  const sunder_character before = create(tube);
+  std::vector<float> materials(tube.meshes[0].vertex_count(), -1);
+  materials[2] = 60000;
+  const sunder_character with = painted(before, 0, materials, "_WALL_MATERIAL");
+  const Character read = reread(with);
+  const CustomAttribute& found = read.meshes[0].custom_attributes.back();
+  EXPECT_EQ(found.name, "_WALL_MATERIAL");
+  EXPECT_FALSE(found.interpolates);
+  EXPECT_EQ(found.values[2], -1.0f);
+  for (const sunder_character one : {before, with}) EXPECT_DONE(sunder_destroy_character(one));
+}
+
 TEST(CCharacter, attributes_that_do_not_fit_are_refused) {
   const sunder_character tube = create(make_tube(6, 5, 3));
   const std::vector<float> values = ascending(make_tube(6, 5, 3).meshes[0], 0);
