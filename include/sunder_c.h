@@ -296,6 +296,12 @@ SUNDER_C_API sunder_status sunder_create_character(const sunder_character_data* 
 SUNDER_C_API sunder_status sunder_load_glb(const void* bytes, uint64_t size,
                                            const sunder_load_options* options,
                                            sunder_character* character);
+/* A copy of a character in which a mesh has an attribute of one number per vertex, in place of one
+ * of that name, which begins with '_'. Files that are saved of it have it too. */
+SUNDER_C_API sunder_status sunder_add_attribute(sunder_character character, uint32_t mesh,
+                                                const char* name, const float* values,
+                                                uint32_t value_count,
+                                                sunder_character* with_attribute);
 SUNDER_C_API sunder_status sunder_destroy_character(sunder_character character);
 /* A view of all arrays, valid until the character is destroyed. `data->struct_size` is set by the
  * caller. */

@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <cstring>
+#include <span>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include "bindings/c/bytes.h"
 #include "bindings/c/structs.h"
+#include "core/internal/wall_material.h"
 #include "io/internal/load_bytes.h"
 
 namespace sunder::c {
@@ -68,14 +72,47 @@ sunder_status find_named(const List& list, const char* name, std::uint32_t* inde
   return SUNDER_OK;
 }
 
+/// A copy in which a mesh has an attribute of one number per vertex, in place of one of that name.
+Result<Character> with_numbers(const Character& character, std::uint32_t mesh,
+                               std::string_view name, std::span<const float> values) {
+  if (mesh >= character.meshes.size())
+    return Status::failure(StatusCode::index_out_of_range, mesh, "mesh %u of %zu", mesh,
+                           character.meshes.size());
+  if (!name.starts_with('_') || name.size() < 2)
+    return Status::failure(StatusCode::invalid_argument, mesh,
+                           "the attribute is named '%.60s'; names of attributes begin with '_'",
+                           std::string(name).c_str());
+  Character changed = character;
+  std::vector<CustomAttribute>& attributes = changed.meshes[mesh].custom_attributes;
+  auto place = std::ranges::find(attributes, name, &CustomAttribute::name);
+  if (place == attributes.end()) place = attributes.insert(place, CustomAttribute{});
+  const bool is_label = name == kWallMaterialAttribute;
+  *place = {std::string(name), 1, !is_label, {values.begin(), values.end()}};
+  if (const Status status = validate_character(changed); !status) return status;
+  return changed;
+}
+
 }  // namespace
 
-CharacterParts::CharacterParts(LoadedCharacter of)
-    : loaded(std::move(of)), view(*loaded.character), notes(notes_of(loaded.report)) {}
+CharacterParts::CharacterParts(LoadedCharacter of, std::shared_ptr<const Character> of_source)
+    : loaded(std::move(of)),
+      in_source(of_source == nullptr ? loaded.character : std::move(of_source)),
+      view(*loaded.character),
+      notes(notes_of(loaded.report)) {}
 
-sunder_status add_character(LoadedCharacter loaded, sunder_character* handle) {
+Result<std::vector<std::byte>> CharacterParts::save(const Character& character,
+                                                    const SaveOptions& options) const {
+  if (loaded.source == nullptr) return save_glb(character, options);
+  LoadedCharacter before;
+  before.character = in_source;
+  before.source = loaded.source;
+  return save_glb(character, before, options);
+}
+
+sunder_status add_character(LoadedCharacter loaded, sunder_character* handle,
+                            std::shared_ptr<const Character> in_source) {
   auto object = std::make_unique<CharacterObject>();
-  object->parts = std::make_shared<const CharacterParts>(std::move(loaded));
+  object->parts = std::make_shared<const CharacterParts>(std::move(loaded), std::move(in_source));
   return add(std::move(object), handle);
 }
 
@@ -147,6 +184,25 @@ sunder_status sunder_load_glb(const void* bytes, uint64_t size, const sunder_loa
   });
 }
 
+sunder_status sunder_add_attribute(sunder_character character, uint32_t mesh, const char* name,
+                                   const float* values, uint32_t value_count,
+                                   sunder_character* with_attribute) {
+  return guarded([&]() -> sunder_status {
+    const CharacterObject* const object = find<CharacterObject>(character);
+    if (object == nullptr) return SUNDER_INVALID_HANDLE;
+    if (name == nullptr) return null_pointer("name");
+    if (values == nullptr && value_count > 0) return null_pointer("values");
+    if (with_attribute == nullptr) return null_pointer("with_attribute");
+    const CharacterParts& parts = *object->parts;
+    auto changed = with_numbers(*parts.loaded.character, mesh, name, {values, value_count});
+    if (!changed) return report(changed.error());
+    sunder::LoadedCharacter loaded = parts.loaded;
+    loaded.stored.clear();
+    loaded.character = std::make_shared<const sunder::Character>(std::move(*changed));
+    return add_character(std::move(loaded), with_attribute, parts.in_source);
+  });
+}
+
 sunder_status sunder_destroy_character(sunder_character character) {
   return destroy_object(character, Kind::character);
 }
@@ -189,10 +245,7 @@ sunder_status sunder_save_glb(sunder_character character, const sunder_save_opti
     if (object == nullptr) return SUNDER_INVALID_HANDLE;
     SUNDER_C_TRY(check_options(options, "options"));
     if (glb == nullptr) return null_pointer("glb");
-    const sunder::LoadedCharacter& loaded = object->parts->loaded;
-    auto bytes = loaded.source == nullptr
-                     ? sunder::save_glb(*loaded.character, save_options_of(options))
-                     : sunder::save_glb(*loaded.character, loaded, save_options_of(options));
+    auto bytes = object->parts->save(*object->parts->loaded.character, save_options_of(options));
     if (!bytes) return report(bytes.error());
     return add_bytes(std::move(*bytes), glb);
   });

@@ -40,9 +40,17 @@ struct CharacterView {
 
 /// A character with the document that it came from; `loaded.source` is null without one. Immutable.
 struct CharacterParts {
-  explicit CharacterParts(LoadedCharacter of);
+  /// @param of_source  what the document holds; null: `of.character`.
+  explicit CharacterParts(LoadedCharacter of, std::shared_ptr<const Character> of_source = nullptr);
+
+  /// The bytes of a GLB of this character, or of one that was torn from it.
+  [[nodiscard]] Result<std::vector<std::byte>> save(const Character& character,
+                                                    const SaveOptions& options) const;
 
   LoadedCharacter loaded;
+  /// Differs from `loaded.character` where that was changed after it was loaded: saving compares
+  /// with it to find what must be written.
+  std::shared_ptr<const Character> in_source;
   CharacterView view;
   std::vector<sunder_note> notes;
 };
@@ -52,7 +60,9 @@ struct CharacterObject : Object {
   std::shared_ptr<const CharacterParts> parts;
 };
 
-sunder_status add_character(LoadedCharacter loaded, sunder_character* handle);
+/// @param in_source  what `loaded.source` holds; null: `loaded.character`.
+sunder_status add_character(LoadedCharacter loaded, sunder_character* handle,
+                            std::shared_ptr<const Character> in_source = nullptr);
 
 /// A character from arrays, not validated yet.
 /// @return a failure for null arrays and enumerators.

@@ -126,8 +126,7 @@ sunder_status sunder_save_instance(sunder_scene scene, sunder_instance instance,
       if (!origins) return report(origins.error());
       save.origins = std::move(*origins);
     }
-    auto bytes = has_source ? sunder::save_glb(*torn, parts->character->loaded, save)
-                            : sunder::save_glb(*torn, save);
+    auto bytes = has_source ? parts->character->save(*torn, save) : sunder::save_glb(*torn, save);
     if (!bytes) return report(bytes.error());
     return add_bytes(std::move(*bytes), glb);
   });

@@ -110,7 +110,7 @@ sunder_status transfer(const CharacterParts& source, const CharacterParts& targe
   LoadedCharacter loaded;
   loaded.source = target.loaded.source;
   loaded.character = std::make_shared<const Character>(std::move(found->character));
-  SUNDER_C_TRY(add_character(std::move(loaded), result));
+  SUNDER_C_TRY(add_character(std::move(loaded), result, target.in_source));
   if (info != nullptr) *info = info_of(*found);
   if (outcomes != nullptr)
     for (const auto& of_mesh : found->outcomes)

@@ -33,6 +33,7 @@ ENUMS = {'SUNDER_OK': ('Status', 'SUNDER_'), 'SUNDER_FEATURE_THREADS': ('Feature
          'SUNDER_AXES_PRINCIPAL': ('PieceAxes', 'SUNDER_AXES_'), 'SUNDER_SOLID_CLOSED': ('Solid', 'SUNDER_SOLID_'),
          'SUNDER_IN_BACKGROUND': ('SubmitFlags', 'SUNDER_'), 'SUNDER_COLLIDER_SPHERE': ('ColliderShape', 'SUNDER_COLLIDER_'),
          'SUNDER_JOINT_HINGE': ('JointKind', 'SUNDER_JOINT_'), 'SUNDER_WOUND_AGE': ('WoundChannel', 'SUNDER_WOUND_'),
+         'SUNDER_FIELD_STRENGTH': ('TissueFactor', 'SUNDER_FIELD_'),
          'SUNDER_SEVERITY_NOTE': ('Severity', 'SUNDER_SEVERITY_'), 'SUNDER_EVIDENCE_EXACT': ('Evidence', 'SUNDER_EVIDENCE_'),
          'SUNDER_TRANSFER_CLOSEST_POINT': ('TransferMethod', 'SUNDER_TRANSFER_'), 'SUNDER_TRANSFER_COINCIDENT': ('TransferOutcome', 'SUNDER_TRANSFER_')}
 FLAGS = ('Features', 'SubmitFlags')

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "core/internal/all_finite.h"
+#include "core/internal/wall_material.h"
+#include "io/gltf/cursor.h"
 #include "io/gltf/refusal.h"
 #include "io/gltf/unit_tolerance.h"
 
@@ -221,11 +223,12 @@ void AttributeReader::read_custom(Mesh& mesh, const std::string& name, const Cur
                                "; it stays in the file but not on a torn mesh");
     return;
   }
-  const bool is_label =
-      (accessor.is_integer() && !accessor.normalized) || name == kTearSideAttribute;
+  const bool is_label = (accessor.is_integer() && !accessor.normalized) ||
+                        name == kTearSideAttribute || name == kWallMaterialAttribute;
   CustomAttribute attribute{name, accessor.components, !is_label, {}};
   attribute.values = reading_.accessors.read_floats(open(at, mesh, accessor.components));
   if (all_finite(attribute.values)) {
+    if (name == kWallMaterialAttribute) forget_absent_materials(attribute.values);
     mesh.custom_attributes.push_back(std::move(attribute));
     return;
   }
@@ -237,6 +240,20 @@ void AttributeReader::read_custom(Mesh& mesh, const std::string& name, const Cur
   reading_.notes.dropped(
       StatusCode::non_finite_value, vertex, place_,
       "attribute " + name + " is not finite (first: vertex " + std::to_string(vertex) + ")");
+}
+
+void AttributeReader::forget_absent_materials(std::vector<float>& indices) {
+  const auto count = static_cast<float>(count_of(reading_.json(), "materials"));
+  std::uint32_t absent = 0;
+  for (float& index : indices) {
+    if (index < count) continue;
+    index = -1.0f;
+    ++absent;
+  }
+  if (absent == 0) return;
+  repaired_ = true;
+  reading_.notes.repaired(StatusCode::index_out_of_range, kNone, place_,
+                          "materials of walls that do not exist became those of the rim", absent);
 }
 
 std::vector<Vec3f> AttributeReader::read_deltas(const Cursor& target, const char* name,

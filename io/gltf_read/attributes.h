@@ -36,6 +36,8 @@ class AttributeReader {
   void read_color_sets(Mesh& mesh);
   void read_tear_side_feature(Mesh& mesh, const Cursor& at);
   void read_custom(Mesh& mesh, const std::string& name, const Cursor& at);
+  /// Of walls: indices without a material in the file would make a torn one refuse to be saved.
+  void forget_absent_materials(std::vector<float>& indices);
   std::vector<Vec3f> read_deltas(const Cursor& target, const char* name, const Mesh& mesh);
   void clamp_colors(std::vector<Vec4f>& colors);
   void note_sets_beyond(const char* prefix, std::size_t used);

@@ -6,6 +6,7 @@
 #include <bit>
 
 #include "core/internal/ordered.h"
+#include "core/internal/wall_material.h"
 #include "tear/geometry/tolerances.h"
 #include "tear/internal/mesh_vertices.h"
 #include "tear/internal/surface.h"
@@ -157,17 +158,29 @@ void Filling::shade_from_behind(Index mesh, Index vertex, Index other, const Vec
   set_flat_attributes(vertex, uv, of);
 }
 
+Filling::Material Filling::material_at(Index rim_corner) const {
+  if (material_ != kNone) return {material_, false};
+  const TriangleRef ref = work_.editor.surface().triangle(rim_corner / 3);
+  const Mesh& of = work_.editor.character().meshes[ref.mesh];
+  const Index of_rim = of.submeshes[of.triangle_submesh[ref.triangle]].material;
+  const CustomAttribute* const authored = find_wall_materials(of);
+  if (authored == nullptr) return {of_rim, false};
+  const Index at_vertex = wall_material_of(authored->values[work_.editor.vertex_at(rim_corner)]);
+  return {at_vertex != kNone ? at_vertex : of_rim, true};
+}
+
 void Filling::add_triangle(Index mesh, Index like_corner, const std::array<Index, 3>& points,
                            const Triangle& vertices) {
   SurfaceEditor& editor = work_.editor;
-  auto known = std::find_if(submeshes_.begin(), submeshes_.end(),
-                            [&](const FillingSubmesh& submesh) { return submesh.mesh == mesh; });
+  const Material wanted = material_at(like_corner);
+  const Mesh& to = editor.character().meshes[mesh];
+  auto known =
+      std::find_if(submeshes_.begin(), submeshes_.end(), [&](const FillingSubmesh& submesh) {
+        return submesh.mesh == mesh &&
+               (!wanted.is_authored || to.submeshes[submesh.submesh].material == wanted.index);
+      });
   if (known == submeshes_.end()) {
-    const TriangleRef ref = editor.surface().triangle(like_corner / 3);
-    const Mesh& of = editor.character().meshes[ref.mesh];
-    const Index material =
-        material_ != kNone ? material_ : of.submeshes[of.triangle_submesh[ref.triangle]].material;
-    submeshes_.push_back({mesh, submesh_of_fillings(mesh, name_, material, editor),
+    submeshes_.push_back({mesh, submesh_of_fillings(mesh, name_, wanted.index, editor),
                           editor.fillings.group_count(mesh)});
     known = submeshes_.end() - 1;
   }

@@ -32,7 +32,8 @@ class BindFromPosed {
 class Filling {
  public:
   /// @param name  of the submesh that each mesh gets for the filling.
-  /// @param material  of these submeshes; kNone: that of the rim.
+  /// @param material  of these submeshes; kNone: what `_WALL_MATERIAL` says at the vertices of the
+  ///                  rim, or that of the rim.
   Filling(const char* name, const Workpiece& work, Index material = kNone);
 
   /// Adds a vertex at a corner of the rim, for a filling in `mesh`. The mesh of the rim may be
@@ -56,7 +57,7 @@ class Filling {
     return bind_from_posed(mesh, vertex).apply(posed, posed);
   }
 
-  /// @param like_corner  a corner of the rim; the filling uses the material of its submesh.
+  /// @param like_corner  a corner of the rim, which chooses the material.
   void add_triangle(Index mesh, Index like_corner, const std::array<Index, 3>& points,
                     const Triangle& vertices);
   /// Connects the triangles added since a mark to each other and to the half-edges of the rim,
@@ -88,6 +89,14 @@ class Filling {
     std::optional<BindFromPosed> of_places, of_normals;  ///< Computed when they are needed.
   };
 
+  /// Of the triangles at a corner of the rim.
+  struct Material {
+    Index index = kNone;
+    /// By the vertices, so that the filling of one mesh may have several.
+    bool is_authored = false;
+  };
+
+  [[nodiscard]] Material material_at(Index rim_corner) const;
   [[nodiscard]] const Mat3d& normal_matrix(Index skin, Index slot);
   [[nodiscard]] Blend& blend_of(Index mesh, Index vertex);
   [[nodiscard]] const BindFromPosed& bind_from_posed(Index mesh, Index vertex);

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <map>
+#include <numeric>
 
 #include "c/c_objects.h"
 
@@ -77,6 +79,79 @@ std::string text_with_buffer(const std::vector<std::byte>& glb, std::string& buf
   const std::string place = "\"buffers\":[{";
   json.insert(json.find(place) + place.size(), "\"uri\":\"" + uri + "\",");
   return json;
+}
+
+/// Adds `_STRENGTH` to a mesh. @return the new character, 0 if that failed.
+sunder_character painted(sunder_character of, std::uint32_t mesh, const std::vector<float>& values,
+                         const char* name = "_STRENGTH") {
+  sunder_character made = 0;
+  EXPECT_DONE(sunder_add_attribute(of, mesh, name, values.data(),
+                                   static_cast<std::uint32_t>(values.size()), &made));
+  return made;
+}
+
+std::vector<float> ascending(const Mesh& mesh, float first) {
+  std::vector<float> values(mesh.vertex_count());
+  std::iota(values.begin(), values.end(), first);
+  return values;
+}
+
+TEST(CCharacter, files_have_attributes_that_were_added) {
+  const Character of_arrays = rich_character();
+  const auto glb = save_glb(of_arrays);
+  ASSERT_TRUE(glb);
+  sunder_character loaded = 0;
+  ASSERT_EQ(sunder_load_glb(glb->data(), glb->size(), nullptr, &loaded), SUNDER_OK);
+  for (const sunder_character before : {create(of_arrays), loaded}) {
+    Character expected = reread(before);
+    const std::vector<float> first = ascending(expected.meshes[0], 0),
+                             second = ascending(expected.meshes[0], 7);
+    const sunder_character once = painted(before, 0, first);
+    const sunder_character twice = painted(once, 0, second);  // in place of the first
+    expected.meshes[0].custom_attributes.push_back({"_STRENGTH", 1, true, second});
+    Character read = reread(twice);
+    for (Character* const one : {&expected, &read})
+      std::ranges::sort(one->meshes[0].custom_attributes, {}, &CustomAttribute::name);
+    EXPECT_EQ(read, expected);
+    for (const sunder_character one : {before, once, twice})
+      EXPECT_DONE(sunder_destroy_character(one));
+  }
+}
+
+TEST(CCharacter, walls_get_no_materials_that_a_file_lacks) {
+  const Character tube = make_tube(6, 5, 3);
+  const sunder_character before = create(tube);
+  std::vector<float> materials(tube.meshes[0].vertex_count(), -1);
+  materials[2] = 60000;
+  const sunder_character with = painted(before, 0, materials, "_WALL_MATERIAL");
+  const Character read = reread(with);
+  const CustomAttribute& found = read.meshes[0].custom_attributes.back();
+  EXPECT_EQ(found.name, "_WALL_MATERIAL");
+  EXPECT_FALSE(found.interpolates);
+  EXPECT_EQ(found.values[2], -1.0f);
+  for (const sunder_character one : {before, with}) EXPECT_DONE(sunder_destroy_character(one));
+}
+
+TEST(CCharacter, attributes_that_do_not_fit_are_refused) {
+  const sunder_character tube = create(make_tube(6, 5, 3));
+  const std::vector<float> values = ascending(make_tube(6, 5, 3).meshes[0], 0);
+  const auto count = static_cast<std::uint32_t>(values.size());
+  sunder_character made = 77;
+  EXPECT_EQ(sunder_add_attribute(tube, 1, "_A", values.data(), count, &made),
+            SUNDER_INDEX_OUT_OF_RANGE);
+  EXPECT_EQ(sunder_add_attribute(tube, 0, "A", values.data(), count, &made),
+            SUNDER_INVALID_ARGUMENT);
+  EXPECT_EQ(sunder_add_attribute(tube, 0, "_A", values.data(), count - 1, &made),
+            SUNDER_SIZE_MISMATCH);
+  EXPECT_EQ(sunder_add_attribute(tube, 0, nullptr, values.data(), count, &made),
+            SUNDER_NULL_POINTER);
+  EXPECT_EQ(sunder_add_attribute(tube, 0, "_A", nullptr, count, &made), SUNDER_NULL_POINTER);
+  std::vector<float> infinite = values;
+  infinite[3] = std::numeric_limits<float>::infinity();
+  EXPECT_EQ(sunder_add_attribute(tube, 0, "_A", infinite.data(), count, &made),
+            SUNDER_NON_FINITE_VALUE);
+  EXPECT_EQ(made, 77u);
+  EXPECT_DONE(sunder_destroy_character(tube));
 }
 
 struct OneFile {

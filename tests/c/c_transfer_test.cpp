@@ -1,5 +1,6 @@
 // What C programs see of a transfer is what C++ programs see.
 
+#include <sunder/io/character_bytes.h>
 #include <sunder/validation/transfer.h>
 
 #include <string>
@@ -91,6 +92,29 @@ TEST(CTransfer, names_of_bones_are_read) {
   const auto expected = transfer_weights(source, target, wanted);
   ASSERT_TRUE(expected) << expected.error().text();
   EXPECT_EQ(influences_of(result, 0), expected->character.meshes[0].weights.influences);
+  for (const sunder_character one : {from, to, result}) EXPECT_DONE(sunder_destroy_character(one));
+}
+
+TEST(CTransfer, a_file_has_the_weights_that_were_transferred) {
+  const Character source = make_tube(12, 8, 4);
+  Character target = source;
+  std::vector<Influence>& influences = target.meshes[0].weights.influences;
+  for (Influence& influence : influences) influence.slot = 0;
+  const auto glb = save_glb(target);
+  ASSERT_TRUE(glb);
+  const sunder_character from = create(source);
+  sunder_character to = 0, result = 0;
+  ASSERT_EQ(sunder_load_glb(glb->data(), glb->size(), nullptr, &to), SUNDER_OK);
+  ASSERT_EQ(sunder_transfer(from, to, nullptr, &result, nullptr, nullptr), SUNDER_OK)
+      << sunder_last_error();
+  sunder_bytes written = 0;
+  ASSERT_EQ(sunder_save_glb(result, nullptr, &written), SUNDER_OK) << sunder_last_error();
+  const std::string bytes = take_bytes(written);
+  const auto span = std::as_bytes(std::span(bytes));
+  const auto loaded = load_glb({span.begin(), span.end()});
+  ASSERT_TRUE(loaded) << loaded.error().text();
+  EXPECT_NE(influences_of(result, 0), influences_of(to, 0));
+  EXPECT_EQ(loaded->character->meshes[0].weights.influences, influences_of(result, 0));
   for (const sunder_character one : {from, to, result}) EXPECT_DONE(sunder_destroy_character(one));
 }
 

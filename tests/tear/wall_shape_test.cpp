@@ -13,6 +13,7 @@
 
 #include "support/models/make_model.h"
 #include "support/models/rigs.h"
+#include "support/oracles/model_state.h"
 #include "support/oracles/torn_invariants.h"
 
 namespace sunder {
@@ -231,6 +232,95 @@ TEST(WallShape, has_the_material_that_is_named) {
   ASSERT_TRUE(model.drill(pose, bore));
   EXPECT_EQ(model.character().meshes[0].submeshes.back().name, "wall");
   EXPECT_EQ(model.character().meshes[0].submeshes.back().material, 7u);
+}
+
+/// Materials of walls chosen per vertex: 3 on the left, the rim's in the middle, 5 on the right.
+Character with_wall_materials(Character character) {
+  Mesh& mesh = character.meshes[0];
+  CustomAttribute materials{"_WALL_MATERIAL", 1, false, {}};
+  for (const Vec3f& at : mesh.positions)
+    materials.values.push_back(at.x() < -0.1f ? 3.0f : at.x() > 0.1f ? 5.0f : -1.0f);
+  mesh.custom_attributes.push_back(std::move(materials));
+  return character;
+}
+
+/// The least and the greatest x of the walls of a material, in bind space.
+std::map<std::uint32_t, std::pair<float, float>> extents_of_walls(const TornModel& model) {
+  std::map<std::uint32_t, std::pair<float, float>> extents;
+  const Mesh& mesh = model.character().meshes[0];
+  for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
+    const Submesh& submesh = mesh.submeshes[mesh.triangle_submesh[t]];
+    if (submesh.name != "wall" || mesh.triangles[t][0] == mesh.triangles[t][1]) continue;
+    for (const std::uint32_t v : mesh.triangles[t]) {
+      const float x = mesh.positions[v].x();
+      const auto [at, is_new] = extents.try_emplace(submesh.material, x, x);
+      at->second = {std::min(at->second.first, x), std::max(at->second.second, x)};
+    }
+  }
+  return extents;
+}
+
+TEST(WallShape, has_the_materials_that_vertices_choose) {
+  const Character source = with_wall_materials(test::make_tube(40, 48, 3));
+  TornModel model = make_model(source);
+  const std::uint32_t of_rim = source.meshes[0].submeshes[0].material;
+  const ModelPose pose = *bind_pose(model.source());
+  const test::ModelState before = test::state_of(model);
+  TearOptions options;
+  options.wall_depth = 0.05;
+  const Stroke stroke = {{{-0.25, 1.2, 0.8}, {-0.25, 1.2, 0.1}},
+                         {{0.25, 1.25, 0.8}, {0.25, 1.25, 0.1}}};
+  ASSERT_TRUE(model.tear(pose, stroke, options));
+  const auto extents = extents_of_walls(model);
+  ASSERT_EQ(extents.size(), 3u);
+  // The choice is that of the nearest vertex: half an edge to either side.
+  EXPECT_LT(extents.at(3).second, -0.04f);
+  EXPECT_GT(extents.at(5).first, 0.04f);
+  EXPECT_GT(extents.at(of_rim).first, -0.16f);
+  EXPECT_LT(extents.at(of_rim).second, 0.16f);
+  EXPECT_THAT(test::broken_laws(model), ::testing::IsEmpty());
+
+  const test::ModelState torn = test::state_of(model);
+  ASSERT_TRUE(model.undo());
+  EXPECT_EQ(test::difference(test::state_of(model), before), "");
+  ASSERT_TRUE(model.redo());
+  EXPECT_EQ(test::difference(test::state_of(model), torn), "");
+
+  options.wall_material = 7;  // what an operation names counts for all of its walls
+  ASSERT_TRUE(model.undo());
+  ASSERT_TRUE(model.tear(pose, stroke, options));
+  EXPECT_EQ(extents_of_walls(model).size(), 1u);
+  EXPECT_TRUE(extents_of_walls(model).contains(7));
+}
+
+TEST(WallShape, materials_of_vertices_are_those_of_strokes_bores_and_random_tears) {
+  Random random(46);
+  for (int i = 0; i < 20; ++i) {
+    SCOPED_TRACE(i);
+    TornModel model = make_model(with_wall_materials(test::make_tube(30, 24, 4)));
+    const ModelPose pose = *bind_pose(model.source());
+    TearOptions options;
+    options.wall_depth = 0.04;
+    options.width = i % 2 == 0 ? 0.0 : 0.02;
+    const double low = random.uniform(0.3, 1.5);
+    const Stroke stroke = {{{-0.3, low, 0.8}, {-0.3, low, 0.1}},
+                           {{0.0, low + random.uniform(-0.2, 0.2), 0.8}, {0.0, low, 0.1}},
+                           {{0.3, low + random.uniform(-0.2, 0.2), 0.8}, {0.3, low, 0.1}}};
+    TornModel by_blades = make_model(model.source());
+    ASSERT_TRUE(model.tear(pose, stroke, options));
+    auto live = TearStroke::create(by_blades, pose, stroke[0], options);
+    ASSERT_TRUE(live);
+    for (std::size_t b = 1; b < stroke.size(); ++b) ASSERT_TRUE(live->extend(pose, stroke[b]));
+    ASSERT_TRUE(live->end());
+    EXPECT_EQ(extents_of_walls(by_blades), extents_of_walls(model));
+    Bore bore{{0.1, low, 1}, {0, 0, -1}, 0.1, 5};
+    bore.wall = true;
+    ASSERT_TRUE(model.drill(pose, bore));
+    for (const auto& [material, extent] : extents_of_walls(model))
+      EXPECT_TRUE(material == 3 || material == 5 ||
+                  material == model.source().meshes[0].submeshes[0].material);
+    EXPECT_THAT(test::broken_laws(model), ::testing::IsEmpty());
+  }
 }
 
 TEST(WallShape, begins_with_a_rim_where_lips_roll_outwards) {

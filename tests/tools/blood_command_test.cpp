@@ -205,6 +205,26 @@ TEST_F(BloodCommand, gives_colours_to_vertices_where_textures_have_no_room) {
   EXPECT_EQ(read_json("plain_torn.json").at("blood").at("meshes_with_vertex_colours"), 1);
 }
 
+TEST_F(BloodCommand, is_red_also_in_the_colours_of_a_green_surface) {
+  const Vec3f green(0.1f, 0.6f, 0.1f);
+  test::GltfBuilder builder;
+  add_square(builder, 0, 0,
+             {{"pbrMetallicRoughness", {{"baseColorFactor", {green[0], green[1], green[2], 1}}}}});
+  builder.json["meshes"][0]["primitives"][0]["attributes"].erase("TEXCOORD_0");
+  save(builder, "green.glb");
+  const CommandResult result = tear(path("green.glb"), across(0), "green_torn", {"--blood=0.1"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const auto loaded = load_character(path("green_torn.glb"));
+  ASSERT_TRUE(loaded);
+  const Mesh& mesh = loaded->character->meshes[0];
+  ASSERT_EQ(mesh.color_sets.size(), 1U);
+  const Vec3f shown = mesh.color_sets[0].back().head<3>().cwiseProduct(green);
+  // As red as the colours of vertices allow, up to 1; not the product of red and green, a brown.
+  EXPECT_GT(shown.x(), 0.08f);
+  EXPECT_GT(shown.x(), 4 * shown.y());
+  EXPECT_LE(mesh.color_sets[0].back().maxCoeff(), 1.0f);
+}
+
 TEST_F(BloodCommand, opens_in_readers_and_is_the_same_twice) {
   SUNDER_SKIP_WITHOUT_GLTF_VALIDATOR();
   for (const char* const name : {"one", "two"})

@@ -217,6 +217,9 @@ class MeshBlood {
   /// @return null, or why there is no room in a texture.
   [[nodiscard]] Result<const char*> lay_on_texture(std::uint32_t submesh);
   [[nodiscard]] Status lay_on_vertices(std::uint32_t submesh, const char* obstacle);
+  /// By which the colour of a vertex of the torn mesh is multiplied to show blood.
+  [[nodiscard]] Vec3f tint_of(std::uint32_t vertex, const ModelLooks::OfFile& looks,
+                              const BloodPlace& at) const;
   /// The place of a vertex of the torn mesh; kNone: no triangle of the submesh has it.
   [[nodiscard]] SourcePlace place_of(std::uint32_t vertex,
                                      std::span<const std::uint32_t> corner_of_vertex) const;
@@ -285,6 +288,29 @@ SourcePlace MeshBlood::place_of(std::uint32_t vertex,
   return place;
 }
 
+Vec3f MeshBlood::tint_of(std::uint32_t vertex, const ModelLooks::OfFile& looks,
+                         const BloodPlace& at) const {
+  const Mesh& torn = model_.character().meshes[mesh_];
+  const Vec3f own =
+      torn.color_sets.empty() ? Vec3f(Vec3f::Ones()) : Vec3f(torn.color_sets[0][vertex].head<3>());
+  Vec3f base = own.cwiseProduct(looks.material.factor.head<3>());
+  if (looks.material.image != nullptr && looks.colour.uv_set < torn.uv_sets.size()) {
+    const Vec2f uv = torn.uv_sets[looks.colour.uv_set][vertex];
+    const Vec2f in_image = looks.colour.image_from_uv * uv.homogeneous();
+    const Vec4f texel = sampled(*looks.material.image, looks.material, in_image);
+    base = base.cwiseProduct(texel.head<3>());
+  }
+  // Factors above 1 turn a green surface red, as far as colours of vertices go, up to 1.
+  const Vec3f wanted = bloodied(base, at);
+  Vec3f tint;
+  for (int i = 0; i < 3; ++i) {
+    constexpr float kDarkest = 1e-4f;
+    const float most = 1.0f / std::max(own[i], kDarkest);
+    tint[i] = std::min(wanted[i] / std::max(base[i], kDarkest), most);
+  }
+  return tint;
+}
+
 Status MeshBlood::lay_on_vertices(std::uint32_t submesh, const char* obstacle) {
   if (!distances_) {
     WoundMaskOptions wanted;
@@ -298,6 +324,7 @@ Status MeshBlood::lay_on_vertices(std::uint32_t submesh, const char* obstacle) {
   for (std::uint32_t c = 0; c < 3 * source_.triangle_count(); ++c)
     if (source_.triangle_submesh[c / 3] == submesh)
       corner_of_vertex[source_.triangles[c / 3][c % 3]] = c;
+  const ModelLooks::OfFile of = looks_.of_file(source_.submeshes[submesh].material);
   const std::uint32_t count = model_.character().meshes[mesh_].vertex_count();
   bool is_any = false;
   for (std::uint32_t v = 0; v < count; ++v) {
@@ -309,7 +336,7 @@ Status MeshBlood::lay_on_vertices(std::uint32_t submesh, const char* obstacle) {
     if (!(std::abs(distance) < reach_)) continue;
     if (tints_.empty()) tints_.assign(count, Vec3f::Ones());
     is_any = true;
-    tints_[v] = bloodied(Vec3f::Ones(), {distance, reach_, 0, rest_place(source_, place) / reach_});
+    tints_[v] = tint_of(v, of, {distance, reach_, 0, rest_place(source_, place) / reach_});
   }
   if (is_any)
     layers_.notes.push_back(

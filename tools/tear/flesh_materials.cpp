@@ -3,6 +3,7 @@
 #include <memory>
 #include <utility>
 
+#include "core/internal/wall_material.h"
 #include "tools/model/history.h"
 #include "tools/model/named_material.h"
 #include "tools/model/robot_joints.h"
@@ -38,6 +39,9 @@ FleshMaterials::FleshMaterials(const TearRun& run, SurfaceKinds kinds)
     : run_(run), kinds_(std::move(kinds)) {
   for (const Operation& operation : value_of(run.model.history()))
     named_.insert(material_field(operation).material);
+  for (const Mesh& mesh : run.model.source().meshes)
+    if (const CustomAttribute* const authored = find_wall_materials(mesh))
+      for (const float value : authored->values) named_.insert(wall_material_of(value));
 }
 
 std::vector<AppendedMaterial> FleshMaterials::appended() const {

@@ -40,7 +40,7 @@ class FleshMaterials {
 
   const TearRun& run_;
   SurfaceKinds kinds_;
-  std::set<std::uint32_t> named_;  ///< By operations.
+  std::set<std::uint32_t> named_;  ///< By operations, and by `_WALL_MATERIAL`.
 };
 
 /// Whether operations filled wounds with walls or caps.

@@ -141,6 +141,18 @@ namespace Sunder
       return (int)clip;
     }
 
+    /// <summary>A copy in which a mesh has an attribute of one number per vertex, in place of one of that name, which begins with '_'. Files of it have it too.</summary>
+    public Character WithAttribute(int mesh, string name, float[] values)
+    {
+      if (values == null) throw new ArgumentNullException("values");
+      uint made;
+      fixed (byte* text = Utf8.Write(name))
+      fixed (float* first = values)
+        SunderException.Check(NativeCalls.sunder_add_attribute(Number, (uint)mesh, text, first, (uint)values.Length, &made));
+      GC.KeepAlive(this);
+      return new Character(made);
+    }
+
     /// <summary>What loading noted.</summary>
     public Note[] GetNotes()
     {

@@ -10,8 +10,9 @@ namespace Sunder
     readonly Epoch epoch;
 
     /// <summary>O(size of the character): on a loading thread. materials: of soft tissue; all starts with the first; null: the default one. coarser: a coarser
-    /// level with the same bones, which options.CoarserBelow speaks of.</summary>
-    public CharacterAsset(Character character, AssetOptions? options = null, TissueMaterial[] materials = null, CharacterAsset coarser = null)
+    /// level with the same bones, which options.CoarserBelow speaks of. authored: where soft tissue differs; null: nowhere.</summary>
+    public CharacterAsset(Character character, AssetOptions? options = null, TissueMaterial[] materials = null, CharacterAsset coarser = null,
+      AuthoredTissue authored = null)
     {
       if (character == null) throw new ArgumentNullException("character");
       Library.CheckNotEmpty(materials, "materials");
@@ -19,8 +20,10 @@ namespace Sunder
       AssetOptions chosen = options ?? AssetOptions.Default;
       if (coarser != null) chosen.Coarser = coarser.Number;
       uint number;
+      using (NativeMemory memory = new NativeMemory())
       fixed (TissueMaterial* first = materials)
       {
+        if (authored != null) authored.Write(memory, ref chosen);
         if (materials != null)
         {
           chosen.Materials = first;

@@ -192,6 +192,77 @@ namespace Sunder.Tests
       }
     }
 
+    /// <summary>How far the most displaced vertex is from where the bones have it, after a while under tension.</summary>
+    static double Gape(Character character, AuthoredTissue authored)
+    {
+      AssetOptions options = AssetOptions.Default;
+      options.IsSoft = true;
+      options.Tension = 2;
+      TissueMaterial skin = Tissue.Find("jelly");
+      using (Scene scene = new Scene())
+      using (CharacterAsset asset = new CharacterAsset(character, options, new[] { skin }, null, authored))
+      {
+        Instance instance = scene.Spawn(asset);
+        instance.Tear(Stroke(1.0));
+        for (int i = 0; i < 60; ++i) scene.Update(1.0 / 60);
+        FloatView posed = instance.GetPosedMesh().Positions;
+        float[] moved = posed.ToArray(), rest = instance.GetMesh().Positions.ToArray();
+        double most = 0;
+        for (int i = 0; i < rest.Length; ++i) most = Math.Max(most, Math.Abs(moved[i] - rest[i]));
+        return most;
+      }
+    }
+
+    internal static void Authored(Character character)
+    {
+      float[] values = new float[character.GetMesh(0).VertexCount];
+      Func<TissueFactor, float, AuthoredTissue> even = (factor, value) => {
+        for (int i = 0; i < values.Length; ++i) values[i] = value;
+        return new AuthoredTissue { Fields = new[] { new FactorField { Factor = factor, Values = (float[])values.Clone() } } };
+      };
+      double plain = Gape(character, null);
+      Expect.That(plain > 0.001, "a wound gapes: " + plain);
+      foreach (TissueFactor factor in Enum.GetValues(typeof(TissueFactor)))
+        Expect.Equal(Gape(character, even(factor, 1)), plain, "factors of 1 change no bit: " + factor);
+      Expect.Equal(Gape(character, even(TissueFactor.Tension, 0)), 0.0, "no tension, no gap");
+      Expect.That(Gape(character, even(TissueFactor.Stiffness, 4)) < 0.5 * plain, "stiff tissue gapes less");
+
+      Expect.Fails(() => Gape(character, even(TissueFactor.Strength, 0)), Status.InvalidArgument);
+      AuthoredTissue wrong = even(TissueFactor.Strength, 2);
+      wrong.Fields[0].Values = new float[0];
+      Expect.Fails(() => Gape(character, wrong), Status.SizeMismatch);
+      wrong.Fields[0].Mesh = 9;
+      Expect.Fails(() => Gape(character, wrong), Status.IndexOutOfRange);
+      wrong.Fields[0] = null;
+      Expect.Throws<ArgumentNullException>(() => Gape(character, wrong), "Fields[0]");
+
+      SurfacePlace first = new SurfacePlace { Triangle = 0, Barycentric = new Vector3d(1, 0, 0) }, second = new SurfacePlace { Triangle = 0, Barycentric = new Vector3d(0, 0.5, 0.5) };
+      PerforatedLine line = new PerforatedLine { Places = new[] { first, second }, Strength = 0.3 };
+      AuthoredTissue holes = new AuthoredTissue { Perforations = new[] { line } };
+      Expect.Equal(Gape(character, holes), plain, "a perforation moves nothing");
+      line.Places = new[] { first };
+      Expect.Fails(() => Gape(character, holes), Status.InvalidArgument);
+      line.Places = new SurfacePlace[0];
+      Expect.Fails(() => Gape(character, holes), Status.InvalidArgument);
+      line.Places = new[] { first, second };
+      line.Strength = 2;
+      Expect.Fails(() => Gape(character, holes), Status.InvalidArgument);
+      line.Places = null;
+      Expect.Throws<ArgumentNullException>(() => Gape(character, holes), "Perforations[0]");
+
+      using (Character painted = character.WithAttribute(0, "_TENSION", values))
+      using (Character read = Character.FromGlb(painted.ToGlb()))
+      {
+        MeshView mesh = read.GetMesh(0);
+        int found = -1;
+        for (int i = 0; i < mesh.AttributeCount; ++i) if (mesh.AttributeName(i) == "_TENSION") found = i;
+        Expect.That(found >= 0, "the file has the attribute");
+        Expect.Equal(mesh.AttributeValues(found).ToArray()[5], values[5], "its values");
+      }
+      Expect.Fails(() => character.WithAttribute(0, "TENSION", values), Status.InvalidArgument);
+      Expect.Fails(() => character.WithAttribute(0, "_TENSION", new float[3]), Status.SizeMismatch);
+    }
+
     internal static void Tissues(Character character)
     {
       AssetOptions options = AssetOptions.Default;

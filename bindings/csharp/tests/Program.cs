@@ -55,6 +55,7 @@ namespace Sunder.Tests
           foreach (string file in Directory.GetFiles(arguments[1], "*.glb"))
             Run("ragdoll of " + Path.GetFileName(file), () => { using (Character character = Character.FromGlb(File.ReadAllBytes(file))) Ragdolls.Check(character); });
           Run("limits of ragdolls", () => Ragdolls.Limits(tube));
+          Run("authored tissue", () => Laws.Authored(tube));
           Run("tissues", () => Laws.Tissues(tube));
           Run("transfers", () => Laws.Transfers(tube));
           Run("clips", () => Laws.Clips(tube));

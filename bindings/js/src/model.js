@@ -114,5 +114,24 @@ export class Model extends Owned {
   /** Rigid bodies and joints for a physics engine. @param matrices  the pose in which it stands */
   ragdoll(matrices = this.matrices(), options = {}) { return new Ragdoll(this.#calls, this.handle, matrices, options); }
 
+  /**
+   * A copy whose meshes have attributes of one number per vertex, in place of those of that name; files of it have them too.
+   * @param attributes  { mesh, name: '_STRENGTH', values } each, one at least @param options  as those of load()
+   */
+  withAttributes(attributes, options = {}) {
+    const calls = this.#calls;
+    if (attributes.length === 0) throw invalidArgument('attributes are empty');
+    let character = this.handle;
+    for (const { mesh = 0, name, values } of attributes) {
+      const before = character;
+      try {
+        character = calls.sunder_add_attribute(before, mesh, name, Float32Array.from(values), values.length);
+      } finally {
+        if (before !== this.handle) calls.sunder_destroy_character(before);
+      }
+    }
+    return new Model(calls, character, options);
+  }
+
   toGLB(options) { return takeBytes(this.#calls, this.#calls.sunder_save_glb(this.handle, fieldsOf(sunder_save_options, options))); }
 }

@@ -268,6 +268,20 @@ test('tissue moves less where factors make it stiff, and factors of one change n
   assert.ok(stiff.right < 0.8 * stiff.left && stiff.right < 0.8 * plain.right, JSON.stringify({ plain, stiff }));
 });
 
+test('attributes that are added are in files, also beside those that a file had', async () => {
+  const plain = await Sunder.fromArrays(sheetArrays(), { soft: false }), values = Float32Array.from({ length: 289 }, (_, i) => 1 + i / 100);
+  const first = plain.withAttributes([{ name: '_TENSION', values: new Float32Array(289) }, { name: '_TENSION', values }], { soft: false });
+  const read = await Sunder.load(first.toGLB(), { soft: false });
+  const second = await Sunder.load(read.withAttributes([{ mesh: 0, name: '_STRENGTH', values }], { soft: false }).toGLB(), { soft: false });
+  const found = Object.fromEntries(second.mesh(0).attributes.map((one) => [one.name, Array.from(one.values)]));
+  assert.deepEqual(found, { _TENSION: Array.from(values), _STRENGTH: Array.from(values) });
+  assert.deepEqual(plain.mesh(0).attributes, []);
+  assert.throws(() => plain.withAttributes([]), /attributes are empty/);
+  assert.throws(() => plain.withAttributes([{ name: 'TENSION', values }]), { code: 'invalid_argument' });
+  assert.throws(() => plain.withAttributes([{ name: '_TENSION', values: values.slice(1) }]), { code: 'size_mismatch' });
+  assert.throws(() => plain.withAttributes([{ mesh: 3, name: '_TENSION', values }]), { code: 'index_out_of_range' });
+});
+
 test('fields and perforations that do not fit are told', async () => {
   const make = (options) => Sunder.fromArrays(sheetArrays(), options), values = new Float32Array(289).fill(1);
   await assert.rejects(make({ fields: [{ field: 'stiffness', values: [1, 2] }] }), { code: 'size_mismatch', message: /2 values; the mesh has 289/ });

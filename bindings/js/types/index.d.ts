@@ -117,6 +117,8 @@ export class Model extends Disposable {
   /** 12 numbers per bone, column after column, the translation last. */
   matrices(clip?: string | number | null, seconds?: number): Float64Array;
   ragdoll(matrices?: Float64Array | number[], options?: RagdollOptions): Ragdoll;
+  /** A copy whose meshes have attributes of one number per vertex, in place of those of that name; files of it have them too. */
+  withAttributes(attributes: { mesh?: number; name: string; values: ArrayLike<number> }[], options?: ModelOptions): Model;
   toGLB(options?: { maximumInfluences?: number }): Uint8Array;
 }
 

@@ -14,7 +14,8 @@ export class SunderObject extends Group {
     /** Whether a submesh of the model itself is one, as in a piece that came off. */
     isFlesh?: (submesh: { name: string; material: number | null }) => boolean;
   });
-  readonly instance: Instance;
+  /** Another one of the same character may take its place. */
+  instance: Instance;
   flesh: Material;
   readonly uploadedBytes: number;
   copyPose(): void;

@@ -143,3 +143,25 @@ def test_perforations_that_are_none_are_refused(sheet, places, strength, error, 
 def test_a_place_has_three_numbers(sheet):
     with pytest.raises(ValueError):
         sunder_tear.Asset(sheet, soft=True, perforations=[([(0, 0, (1, 0)), (0, 1, (1, 0, 0))], 0.5)])
+
+
+def test_a_painted_field_is_an_attribute_of_files(sheet):
+    values = np.linspace(0.5, 2, 961).astype(np.float32)
+    painted = sheet.with_attribute('_STIFFNESS', np.ones(961)).with_attribute('_STIFFNESS', values)
+    read = sunder_tear.Character.load(painted.save())
+    np.testing.assert_array_equal(read.meshes[0].attributes['_STIFFNESS'][:, 0], values)
+    again = sunder_tear.Character.load(read.with_attribute('_TENSION', values).save())  # of one that has a file
+    assert sorted(again.meshes[0].attributes) == ['_STIFFNESS', '_TENSION']
+    assert '_STIFFNESS' not in sheet.meshes[0].attributes
+
+
+@pytest.mark.parametrize('name, values, mesh, error', [
+    ('STIFFNESS', np.ones(961), 0, 'invalid_argument'),
+    ('_STIFFNESS', np.ones(960), 0, 'size_mismatch'),
+    ('_STIFFNESS', np.full(961, np.inf), 0, 'non_finite_value'),
+    ('_STIFFNESS', np.ones(961), 1, 'index_out_of_range'),
+])
+def test_attributes_that_do_not_fit_are_refused(sheet, name, values, mesh, error):
+    with pytest.raises(sunder_tear.SunderError) as caught:
+        sheet.with_attribute(name, values, mesh)
+    assert caught.value.name == error

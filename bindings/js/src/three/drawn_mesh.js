@@ -36,14 +36,22 @@ export class DrawnMesh extends Mesh {
     this.matrixAutoUpdate = false;
   }
 
+  /** Draws another instance of the same character from the next update() on. */
+  set instance(instance) {
+    this.#instance = instance;
+    this.#seen = 0n;
+    this.#draws = '';
+  }
+
   /** Copies what changed since the last call. @returns the bytes that will be uploaded */
   update() {
     let posed = this.#instance.mesh(this.#index, this.#seen), attributes = posed.dirtyAttributes;
     if (posed.vertexCount > this.#vertices || posed.triangleCapacity > this.#triangles) {
       this.#grow(posed);
-      posed = this.#instance.mesh(this.#index, 0n);
-      attributes = [{ first: 0, count: posed.vertexCount }];
+      this.#seen = 0n;
+      posed = this.#instance.mesh(this.#index, this.#seen);
     }
+    if (this.#seen === 0n) attributes = [{ first: 0, count: posed.vertexCount }];
     const bytes = this.#copyVertices(posed) + this.#copyAttributes(attributes) + this.#copyTriangles(posed);
     this.#setGroups(posed);
     this.#seen = posed.epoch;

@@ -46,6 +46,12 @@ export class SunderObject extends Group {
   }
 
   get instance() { return this.#instance; }
+  /** Shows another instance of the same character from the next update() on. */
+  set instance(instance) {
+    this.#instance = instance;
+    this.#nodes = null;
+    for (const mesh of this.children) if (mesh instanceof DrawnMesh) mesh.instance = instance;
+  }
 
   #materialOf(submesh, isInside) {
     if (isInside || this.#isFlesh(submesh)) return this.flesh;

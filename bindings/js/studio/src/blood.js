@@ -60,8 +60,11 @@ export class Blood {
       texture.needsUpdate = true;
     }
   }
-  /** After a snapshot was restored, which has no masks. */
-  restart() { this.#begin(); }
+  /** After a snapshot was restored, which has no masks, or when another instance of the character is shown. */
+  restart(instance = this.#instance) {
+    this.#instance = instance;
+    this.#begin();
+  }
   dispose() { for (const { texture } of this.#layers) texture.dispose(); }
 
   #begin() {

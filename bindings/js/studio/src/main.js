@@ -6,6 +6,8 @@ import { saveFile } from '../../../../tools/page_parts/src/save_file.js';
 import { kindOf, receiveFiles } from './files.js';
 import { Headset } from './headset.js';
 import { HistoryList } from './history_list.js';
+import { FIELDS } from './paint.js';
+import { PaintedColours } from './painted_colours.js';
 import { Readout } from './readout.js';
 import { Stage } from './stage.js';
 import { Studio } from './studio.js';
@@ -15,9 +17,9 @@ import { WeightsError } from './weights_error.js';
 const characters = JSON.parse(byId('characters').textContent);
 const bytesOf = (base64) => Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
 
-const settings = { width: 0, depth: 0, radius: 0, tension: 0, tissue: 'skin', givesWay: true };
+const settings = { width: 0, depth: 0, radius: 0, tension: 0, tissue: 'skin', givesWay: true, field: 'strength', factor: 0.2, erases: false };
 const stage = new Stage(byId('canvas'));
-const studio = new Studio(stage, settings, new WeightsError(byId('legend')), say);
+const studio = new Studio(stage, settings, { weightsError: new WeightsError(byId('legend')), paintedColours: new PaintedColours(byId('legend')) }, say);
 const readout = new Readout(byId('readout'));
 const headset = new Headset(stage, studio);
 const history = new HistoryList(byId('history'), (count) => studio.goBackTo(count));
@@ -94,7 +96,9 @@ byId('speed').addEventListener('change', () => { studio.speed = Number(byId('spe
 
 function choose(next) {
   tool = next;
+  studio.tool = tool;
   byId('hint').textContent = tool.hint;
+  byId('brush').hidden = !tool.paints;
   byId('stage').dataset.tool = tool.begin ? 'works' : 'turns';
   for (const input of byId('tools').querySelectorAll('input')) input.checked = tools[input.value] === tool;
 }
@@ -110,6 +114,15 @@ for (const name of ['width', 'depth', 'radius', 'tension']) {
   input.addEventListener('input', apply);
   apply();
 }
+for (const field of FIELDS) byId('field').append(html('option', { selected: field === settings.field }, field));
+byId('field').addEventListener('change', () => { settings.field = byId('field').value; });
+const applyFactor = () => {
+  settings.factor = Number((10 ** Number(byId('factor').value)).toPrecision(2));
+  document.querySelector('output[for=factor]').textContent = `× ${settings.factor}`;
+};
+byId('factor').addEventListener('input', applyFactor);
+applyFactor();
+byId('erases').addEventListener('change', ({ target }) => { settings.erases = target.checked; });
 byId('weights-error').addEventListener('change', ({ target }) => { studio.weightsError.isShown = target.checked; });
 byId('gives-way').addEventListener('change', ({ target }) => { settings.givesWay = target.checked; });
 
@@ -162,9 +175,9 @@ function frame(now) {
   if (figures) {
     readout.add({ ...figures, memory: Sunder.memoryBytes });
     readout.others = studio.weightsError.lines;
-    const { instance } = studio.actor, { undo, redo } = instance.undoCounts;
-    byId('undo').disabled = undo === 0;
-    byId('redo').disabled = redo === 0;
+    const { instance } = studio.actor, { undo } = instance.undoCounts;
+    byId('undo').disabled = !studio.canUndo;
+    byId('redo').disabled = !studio.canRedo;
     history.update(instance);
     if (instance.digest !== digest) {
       digest = instance.digest;
@@ -204,7 +217,7 @@ if (!studio.actor) {
 }
 if (fault) say(fault, true);
 listenToKeys(canvas, stage, {
-  ' ': togglePlay, z: () => studio.undo(), y: () => studio.redo(), s: saveLog, g: saveGLB, f: fit, w: () => byId('weights-error').click(),
+  ' ': togglePlay, z: () => studio.undo(), y: () => studio.redo(), s: saveLog, g: saveGLB, f: fit, w: () => byId('weights-error').click(), e: () => byId('erases').click(),
   '?': () => byId('helping').showModal(), ...Object.fromEntries(tools.map((one, i) => [i + 1, () => choose(one)])),
 });
 stage.renderer.setAnimationLoop(frame);

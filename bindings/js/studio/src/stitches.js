@@ -16,6 +16,8 @@ export class Stitches {
     this.#object = object;
     this.#size = size;
   }
+  /** Another instance of the character is shown. */
+  set instance(instance) { this.#instance = instance; }
   get count() { return this.#drawn?.count ?? 0; }
 
   /** After an update of the scene. */

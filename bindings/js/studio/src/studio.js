@@ -2,6 +2,7 @@
 import { Actor } from './actor.js';
 import { Sunder } from 'sunder-tear';
 import { FallingPiece } from './falling_piece.js';
+import { PaintHistory } from './paint_history.js';
 import { packState, unpackState } from './state_file.js';
 
 export class Studio {
@@ -12,23 +13,30 @@ export class Studio {
   #use = null;
   /** By the command of a tool: what is said once it is done. */
   #says = new Map();
+  #paints = new PaintHistory();
+  /** Ends when the strokes of the brush so far are in the tissue. */
+  painted = Promise.resolve();
+  /** The tool that is chosen. */
+  tool = null;
   actor = null;
   name = '';
   isPlaying = true;
   /** Colours the character, or not. */
   weightsError;
+  paintedColours;
   /** What else acts on the character in each frame: { act, feel, dispose }. */
   hands = [];
   get fallen() { return this.#pieces; }
   speed = 1;
 
   /**
-   * @param settings  { width, depth, radius, tension, tissue, givesWay }
-   * @param weightsError  a WeightsError
+   * @param settings  { width, depth, radius, tension, tissue, givesWay; field, factor, erases of the brush }
+   * @param colours  { weightsError, paintedColours }
    * @param onMessage  gets what an operation did, and whether it failed
    */
-  constructor(stage, settings, weightsError, onMessage) {
+  constructor(stage, settings, { weightsError, paintedColours }, onMessage) {
     this.weightsError = weightsError;
+    this.paintedColours = paintedColours;
     this.#stage = stage;
     this.#settings = settings;
     this.#onMessage = onMessage;
@@ -48,7 +56,8 @@ export class Studio {
     this.#use = null;
     this.#says.clear();
     this.#dropPieces(() => true);
-    this.weightsError.clear();
+    this.#clearColours();
+    this.#paints.clear();
     this.actor?.dispose();
     this.actor = null;
   }
@@ -75,10 +84,52 @@ export class Studio {
   end() {
     const use = this.#use;
     this.#use = null;
-    if (use) this.#attempt(() => use.end());
+    if (!use) return;
+    this.#attempt(() => {
+      const done = use.end();
+      if (use.stroke) this.#paint(done);
+    });
   }
-  undo() { this.#attempt(() => { if (this.actor.instance.undoCounts.undo > 0) this.actor.instance.undo(); }); }
-  redo() { this.#attempt(() => { if (this.actor.instance.undoCounts.redo > 0) this.actor.instance.redo(); }); }
+  /** The last operation or stroke of the brush, whichever came later. */
+  undo() {
+    this.#attempt(() => {
+      const { instance } = this.actor, { undo } = instance.undoCounts, paint = this.#paints.undo(undo);
+      if (paint) this.#repaint(paint);
+      else if (undo > 0) instance.undo();
+    });
+  }
+  redo() {
+    this.#attempt(() => {
+      const { instance } = this.actor, { undo, redo } = instance.undoCounts, paint = this.#paints.redo(undo);
+      if (paint) this.#repaint(paint);
+      else if (redo > 0) instance.redo();
+    });
+  }
+  get canUndo() { return this.actor.instance.undoCounts.undo > 0 || this.#paints.canUndo; }
+  get canRedo() { return this.actor.instance.undoCounts.redo > 0 || this.#paints.canRedo; }
+  #paint({ fields, text }) {
+    const { actor } = this;
+    this.#paints.add({ before: this.#paints.fields ?? actor.fields, after: fields, operations: actor.instance.undoCounts.undo });
+    this.#repaint(fields);
+    this.#onMessage(text[0].toUpperCase() + text.slice(1), false);
+  }
+  /** One after the other, because a model is made for each. */
+  #repaint(fields) {
+    const { actor } = this;
+    this.painted = this.painted.then(async () => {
+      if (actor !== this.actor) return;
+      this.#use = null;
+      this.#says.clear();
+      this.#clearColours();
+      await actor.repaint(fields);
+      this.applySettings();
+    }).catch((error) => this.#onMessage(error.message, true));
+  }
+  /** They are drawn from buffers of the character's meshes. */
+  #clearColours() {
+    this.weightsError.clear();
+    this.paintedColours.clear();
+  }
   /** Undoes until so many operations are left. */
   goBackTo(count) {
     this.#attempt(() => { for (let i = this.actor.instance.undoCounts.undo; i > count; --i) this.actor.instance.undo(); });
@@ -142,8 +193,15 @@ export class Studio {
     this.#dropUndone();
     actor.inside.isShown = actor.isTearing || actor.instance.undoCounts.undo > 0;
     const ended = performance.now();
-    this.#attempt(() => this.weightsError.update(actor, this.#use !== null || actor.isTearing));
+    this.#attempt(() => this.#colour(actor));
     return { ...stats, own: ended - began, upload: ended - updated, bytes };
+  }
+
+  /** One field at a time: what is painted, while it is; else the weights' error. */
+  #colour(actor) {
+    if (this.tool?.paints && this.weightsError.report) this.weightsError.clear();
+    this.paintedColours.update(actor, this.tool?.paints ? this.#settings.field : null, this.#use?.stroke ?? null);
+    if (!this.tool?.paints) this.weightsError.update(actor, this.#use !== null || actor.isTearing);
   }
 
   #handle(results) {

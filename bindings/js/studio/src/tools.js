@@ -96,7 +96,16 @@ const heal = {
   },
 };
 
+const paint = {
+  name: 'Paint', hint: 'Drag over the surface: its tissue gets the factor of the chosen field, with a soft edge. Erase gives it the factor 1.', needsHit: true, paints: true,
+  begin({ actor, hit, settings: { field, factor, radius, erases } }) {
+    const stroke = actor.beginPaint({ field, factor: erases ? 1 : factor, radius });
+    stroke.to(hit);
+    return { stroke, move({ hit: next }) { if (next) stroke.to(next); }, end: () => stroke.end() };
+  },
+};
+
 const turn = { name: 'Turn', hint: 'Drag to turn the character, scroll to zoom.', needsHit: false, begin: null };
 
 /** In the order of their keys. */
-export const tools = [turn, blade, plane, bore, pull, takeOff, sew, heal];
+export const tools = [turn, blade, plane, bore, pull, takeOff, sew, heal, paint];

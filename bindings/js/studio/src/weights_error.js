@@ -1,6 +1,7 @@
 // Colours the character by how far each vertex strays from where the model before any tear would have it.
 import * as THREE from 'three';
 import { niceTop, quantity } from '../../../../tools/page_parts/src/format.js';
+import { ColouredMesh } from './coloured_mesh.js';
 
 /** From nothing to the top of the scale: viridis, which people with colour vision deficiencies can read. */
 const RAMP = ['#440154', '#472d7b', '#3b528b', '#2c728e', '#21918c', '#28ae80', '#5ec962', '#addc30', '#fde725'].map((colour) => new THREE.Color(colour));
@@ -11,61 +12,6 @@ function colourOf(value, top) {
   if (Number.isNaN(value)) return UNKNOWN;
   const place = Math.min(value / top, 1) * (RAMP.length - 1), first = Math.min(Math.floor(place), RAMP.length - 2);
   return RAMP[first].clone().lerp(RAMP[first + 1], place - first);
-}
-
-const SHARED = ['position', 'normal'];
-
-/** A mesh with the buffers of one of the character, and colours of its own. The other one is not drawn meanwhile. */
-class ColouredMesh extends THREE.Mesh {
-  #drawn;
-  #of = null;
-  #colours;
-  #heat;
-
-  /** @param colours  of the vertices that there are; those that a tear adds are grey until they are measured */
-  constructor(drawn, material, colours) {
-    super(new THREE.BufferGeometry(), []);
-    this.#drawn = drawn;
-    this.#colours = colours;
-    this.#heat = material;
-    this.matrixAutoUpdate = false;
-    this.castShadow = this.receiveShadow = true;
-    drawn.layers.disableAll();
-    drawn.add(this);
-    this.follow();
-  }
-  /** The character's buffers may be other ones after a tear. */
-  follow() {
-    const { geometry, material } = this.#drawn;
-    if (this.#of !== geometry) this.#share(geometry);
-    this.geometry.groups = geometry.groups;
-    if (this.material.length !== material.length) this.material = material.map(() => this.#heat);
-  }
-  dispose() {
-    this.#drawn.layers.set(0);
-    this.removeFromParent();
-    this.#release();
-  }
-
-  #share(geometry) {
-    this.#release();
-    this.#of = geometry;
-    this.geometry = new THREE.BufferGeometry();
-    for (const name of SHARED) if (geometry.attributes[name]) this.geometry.setAttribute(name, geometry.attributes[name]);
-    const colour = new THREE.BufferAttribute(new Float32Array(3 * geometry.attributes.position.count), 3);
-    for (let v = this.#colours.length / 3; v < colour.count; ++v) UNKNOWN.toArray(colour.array, 3 * v);
-    colour.array.set(this.#colours);
-    this.geometry.setAttribute('color', colour);
-    this.geometry.setIndex(geometry.index);
-    this.geometry.boundingBox = geometry.boundingBox;
-    this.geometry.boundingSphere = geometry.boundingSphere;
-  }
-  /** Disposing of a geometry drops its buffers, but the character is drawn from the shared ones. */
-  #release() {
-    for (const name of SHARED) this.geometry.deleteAttribute(name);
-    this.geometry.setIndex(null);
-    this.geometry.dispose();
-  }
 }
 
 export class WeightsError {
@@ -106,7 +52,7 @@ export class WeightsError {
       const count = instance.mesh(i).vertexCount, colours = new Float32Array(3 * count);
       for (let v = 0; v < count; ++v) colourOf(deviations[first + v], top).toArray(colours, 3 * v);
       first += count;
-      this.#meshes.push(new ColouredMesh(mesh, this.#material, colours));
+      this.#meshes.push(new ColouredMesh(mesh, this.#material, colours, UNKNOWN));
     }
     this.report = report;
     const [least, ramp, most, note] = this.#legend.children;

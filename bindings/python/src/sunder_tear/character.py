@@ -150,6 +150,12 @@ class Character:
         structs = CharacterStructs(name, bones, skins, meshes, rest_morph_weights)
         return Character(abi.output('create_character', ctypes.byref(structs.data)))
 
+    def with_attribute(self, name: str, values, mesh: int = 0) -> Character:
+        """A copy in which a mesh has an attribute of one number per vertex, in place of one of that name, which begins with "_".
+        Files of it have it too."""
+        values = numbers(values, np.float32, -1)
+        return Character(abi.output('add_attribute', self._handle, mesh, name.encode(), pointer_to(values, ctypes.c_float), len(values)))
+
     @property
     def name(self) -> str:
         return (self._data.name or b'').decode()
