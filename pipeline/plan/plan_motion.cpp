@@ -72,7 +72,6 @@ class Planner {
     scales_ = setup->scales;
     limits_ = setup->limits;
     longest_ = kLongest * timing_.cut;
-    gape_ = target.gape;
     planned_.report.curve_length = setup->path.length();
     planned_.report.tolerance = setup->tolerance;
     for (int i = 0;; ++i) {
@@ -470,18 +469,18 @@ class Planner {
     report.torn = measured->torn;
     wound_share_ = measured->farthest_share;
     missed_by_ = measured->missed_by;
-    if (gape_ > 0 && report.hausdorff <= report.tolerance) return settle(path.length());
+    if (path.widest_gape() > 0 && report.hausdorff <= report.tolerance) return settle(path);
     return {};
   }
 
   /// Lets the wound gape.
-  Status settle(double length) {
+  Status settle(const TargetPath& path) {
     const Result<SoftMaterial> skin = find_material("skin");
     const Result<ModelPose> pose = pose_at(*character_, timing_, planned_.report.cut_ends);
     if (!skin) return skin.error();
     if (!pose) return pose.error();
-    const Result<PlannedGape> gape = settle_gape(character_, planned_.tear, *pose, length, gape_,
-                                                 options_.material.value_or(*skin));
+    const Result<PlannedGape> gape =
+        settle_gape(character_, planned_.tear, *pose, path, options_.material.value_or(*skin));
     if (!gape) return gape.error();
     planned_.report.gape = *gape;
     return {};
@@ -508,7 +507,6 @@ class Planner {
   std::vector<Vec2d> missed_by_;  ///< WoundMeasures, of the last tear.
   std::optional<Clearance> clearance_;
   double longest_ = 0, slowdown_ = 1;
-  double gape_ = 0;         ///< WoundTarget::gape.
   double wound_share_ = 0;  ///< Of the place of the curve that the lips are farthest from.
   PlannedMotion planned_;
 };

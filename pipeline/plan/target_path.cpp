@@ -39,6 +39,30 @@ Status check_profile(const std::vector<double>& profile, std::size_t places, con
   return {};
 }
 
+Status check_gape(const WoundTarget& target) {
+  const std::vector<double>& gape = target.gape;
+  if (gape.empty()) return {};
+  if (gape.size() != 1 && gape.size() != target.places.size())
+    return Status::failure(StatusCode::size_mismatch, kNone,
+                           "gape has %zu numbers; expected 1 or %zu, one per place", gape.size(),
+                           target.places.size());
+  for (std::size_t i = 0; i < gape.size(); ++i)
+    if (!(gape[i] >= 0) || !std::isfinite(gape[i]))
+      return Status::failure(StatusCode::invalid_argument, static_cast<std::uint32_t>(i),
+                             "gape %zu is %g; it must be at least 0", i, gape[i]);
+  const double widest = *std::max_element(gape.begin(), gape.end());
+  if (widest > 0 && target.is_closed)
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "the gape is %g, but a closed curve has none: its piece comes off",
+                           widest);
+  if (gape.size() > 1 && (gape.front() > 0 || gape.back() > 0))
+    return Status::failure(StatusCode::invalid_argument, kNone,
+                           "the gape is %g at the first and %g at the last place; a wound is "
+                           "closed there: 0",
+                           gape.front(), gape.back());
+  return {};
+}
+
 Status check_target(const Character& character, const WoundTarget& target) {
   if (target.places.size() < 2)
     return Status::failure(StatusCode::empty_input, kNone, "the curve has %zu places; it needs two",
@@ -52,13 +76,7 @@ Status check_target(const Character& character, const WoundTarget& target) {
             check_place(character, target.places[i], static_cast<std::uint32_t>(i));
         !status)
       return status;
-  if (!(target.gape >= 0) || !std::isfinite(target.gape))
-    return Status::failure(StatusCode::invalid_argument, kNone,
-                           "the gape is %g; it must be at least 0", target.gape);
-  if (target.gape > 0 && target.is_closed)
-    return Status::failure(StatusCode::invalid_argument, kNone,
-                           "the gape is %g, but a closed curve has none: its piece comes off",
-                           target.gape);
+  if (const Status status = check_gape(target); !status) return status;
   if (const Status status = check_profile(target.depth, target.places.size(), "depth", 1e6);
       !status)
     return status;
@@ -66,6 +84,7 @@ Status check_target(const Character& character, const WoundTarget& target) {
 }
 
 double profile_at(const std::vector<double>& profile, std::size_t place) {
+  if (profile.empty()) return 0;
   return profile.size() == 1 ? profile[0] : profile[place % profile.size()];
 }
 
@@ -73,7 +92,7 @@ double profile_at(const std::vector<double>& profile, std::size_t place) {
 struct LaidPlace {
   SurfaceAnchor anchor;
   Vec3d place;
-  double depth, angle;
+  double depth, angle, gape;
 };
 
 /// Lays the chords between the given places on the surface.
@@ -103,7 +122,7 @@ class Layer {
 
   void add(std::size_t i) {
     laid.push_back({target_.places[i % posed_.size()], at(i), profile_at(target_.depth, i),
-                    profile_at(target_.angle, i)});
+                    profile_at(target_.angle, i), profile_at(target_.gape, i)});
   }
 
   [[nodiscard]] Status jump(std::size_t i) const {
@@ -147,7 +166,8 @@ class Layer {
       return (1 - middle.share) * profile_at(profile, i - 1) +
              middle.share * profile_at(profile, i);
     };
-    laid.push_back({contact.anchor, contact.place, between(target_.depth), between(target_.angle)});
+    laid.push_back({contact.anchor, contact.place, between(target_.depth), between(target_.angle),
+                    between(target_.gape)});
     return halve(i, middle, to, halvings - 1);
   }
 
@@ -182,9 +202,22 @@ Result<TargetPath> TargetPath::create(const std::shared_ptr<const Character>& ch
         i == 0 ? 0 : path.along_.back() + (laid.place - layer.laid[i - 1].place).norm());
     path.depth_.push_back(laid.depth);
     path.angle_.push_back(laid.angle);
+    path.gape_.push_back(laid.gape);
   }
+  for (const double along : path.along_) path.shares_.push_back(along / path.length());
+  path.has_gape_profile_ = target.gape.size() > 1;
+  if (!target.gape.empty())
+    path.widest_gape_ = *std::max_element(target.gape.begin(), target.gape.end());
   path.places_.emplace(*character, path.anchors_);
   return path;
+}
+
+double TargetPath::gape_at(double share) const {
+  const auto above = std::upper_bound(shares_.begin(), shares_.end() - 1, share) - shares_.begin();
+  const auto next = static_cast<std::size_t>(std::max<std::ptrdiff_t>(above, 1));
+  const double step = shares_[next] - shares_[next - 1];
+  const double part = step > 0 ? std::clamp((share - shares_[next - 1]) / step, 0.0, 1.0) : 0;
+  return (1 - part) * gape_[next - 1] + part * gape_[next];
 }
 
 Vec3d direction_at(const Vec3d& before, const Vec3d& behind, const Vec3d& normal) {

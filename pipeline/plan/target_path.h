@@ -49,6 +49,15 @@ class TargetPath {
 
   [[nodiscard]] bool is_closed() const { return is_closed_; }
 
+  /// The length from the begin to each anchor, as a share of all.
+  [[nodiscard]] const std::vector<double>& shares() const { return shares_; }
+
+  [[nodiscard]] double widest_gape() const { return widest_gape_; }  ///< Metres; 0: not wanted.
+  /// Whether a gape is wanted all along, not only where it is widest.
+  [[nodiscard]] bool has_gape_profile() const { return has_gape_profile_; }
+  /// The gape that is wanted at a share of the curve, metres.
+  [[nodiscard]] double gape_at(double share) const;
+
   /// Moves what samples aim at, besides what was moved before: metres along the curve and, across
   /// it, towards normal x direction, one per anchor. Anchors and length stay as they are.
   void aim_beside(std::span<const Vec2d> offsets);
@@ -63,9 +72,12 @@ class TargetPath {
 
   std::shared_ptr<const Character> character_;
   std::vector<SurfaceAnchor> anchors_;
-  std::vector<double> along_;          ///< Length from the begin to each anchor, metres.
-  std::vector<double> depth_, angle_;  ///< At each anchor.
-  std::vector<Vec2d> beside_;          ///< Offsets of the aim; empty: none.
+  std::vector<double> along_;                 ///< Length from the begin to each anchor, metres.
+  std::vector<double> depth_, angle_, gape_;  ///< At each anchor.
+  std::vector<double> shares_;
+  double widest_gape_ = 0;
+  bool has_gape_profile_ = false;
+  std::vector<Vec2d> beside_;  ///< Offsets of the aim; empty: none.
   bool is_closed_ = false;
   std::optional<PosedPlaces> places_;  ///< The anchors.
 };

@@ -66,10 +66,7 @@ class CurveReader {
     if (const Status status = read_profile(json, "depth", 1, target_.depth); !status) return status;
     if (const Status status = read_profile(json, "angle", kDegree, target_.angle); !status)
       return status;
-    if (json.contains("gape")) {
-      if (!json["gape"].is_number()) return malformed("/gape", "a number");
-      target_.gape = json["gape"].get<double>();
-    }
+    if (const Status status = read_profile(json, "gape", 1, target_.gape); !status) return status;
     return std::move(target_);
   }
 

@@ -36,6 +36,16 @@ Json value_json(const ValueMargin& margin) {
 
 Json error_json(double most, double mean) { return {{"most", most}, {"mean", mean}}; }
 
+Json gape_json(const PlannedGape& gape) {
+  Json json = {{"tension", gape.tension}, {"widest", gape.widest}};
+  if (gape.tension_shares.empty()) return json;
+  json["tension_shares"] = gape.tension_shares;
+  json["gape_along"] = gape.gape_along;
+  json["wanted_along"] = gape.wanted_along;
+  json["most_error"] = gape.most_error;
+  return json;
+}
+
 double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
 }  // namespace
@@ -106,8 +116,7 @@ Json plan_json(const PlanRequest& request, const PlanReport& report,
   json["lips"] = {{"hausdorff", number(report.hausdorff)},
                   {"mean_distance", number(report.mean_distance)},
                   {"hausdorff_in_clips", number(report.hausdorff_in_clips)}};
-  if (report.gape)
-    json["gape"] = {{"tension", report.gape->tension}, {"widest", report.gape->widest}};
+  if (report.gape) json["gape"] = gape_json(*report.gape);
   Json& values = json["values"] = Json::array();
   for (const ValueMargin& margin : report.values) values.push_back(value_json(margin));
   return json;
@@ -134,6 +143,8 @@ std::string plan_summary(const PlanReport& report) {
   if (report.gape)
     text += printed("gape        %.3g m under a tension of %.4g N/m\n", report.gape->widest,
                     report.gape->tension);
+  if (report.gape && !report.gape->tension_shares.empty())
+    text += printed("            off by %.3g m at most along the curve\n", report.gape->most_error);
   if (std::isfinite(report.least_clearance))
     text += printed("links       at least %.3g m from the model\n", report.least_clearance);
   if (std::isfinite(report.least_self_clearance))

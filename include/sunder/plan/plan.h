@@ -3,10 +3,12 @@
 #include <sunder/operation/operation.h>
 #include <sunder/particles/fitted_colliders.h>
 #include <sunder/particles/material.h>
+#include <sunder/particles/soft_body.h>
 #include <sunder/robot/robot.h>
 #include <sunder/robot/trajectory.h>
 #include <sunder/tear/contact.h>
 #include <sunder/tear/report.h>
+#include <sunder/tear/torn_model.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -35,9 +37,9 @@ struct WoundTarget {
   /// Between the blade and the surface along the curve, radians, in (0, pi): one for the curve, or
   /// one per place. Below a right angle the blade's base leans in the direction of travel.
   std::vector<double> angle = {std::numbers::pi / 2};
-  /// How wide the wound shall gape in soft tissue where it is widest, metres; 0: not asked for. A
-  /// closed curve has none.
-  double gape = 0;
+  /// How wide the wound shall gape in soft tissue, metres: one number where it is widest, or one
+  /// per place, of which the first and the last are 0. {0}: not asked for. A closed curve has none.
+  std::vector<double> gape = {0};
 };
 
 /// The curve on a character that is like the wound of another one: the longest run of lips of a
@@ -126,6 +128,10 @@ struct PlannedGape {
   /// The greatest distance of two points of the lips that were one, metres, when the tissue has
   /// come to rest under that tension in the pose in which the cut ends.
   double widest = 0;
+  /// For a gape per place, at even shares of the curve from its begin to its end: the shares of the
+  /// tension, 0 to 1, what gapes under them, and what was wanted, metres. Otherwise empty.
+  std::vector<double> tension_shares = {}, gape_along = {}, wanted_along = {};
+  double most_error = 0;  ///< The largest difference of these two, metres.
 };
 
 struct PlanReport {
@@ -179,6 +185,18 @@ struct PlannedMotion {
 [[nodiscard]] SUNDER_API Result<PlannedMotion> plan_motion(
     const std::shared_ptr<const Character>& character, const WoundTarget& target,
     const PlanTiming& timing, const PlanTool& tool, const PlanOptions& options = {});
+
+/// PlannedGape as SoftBody::set_tension() takes it, for the lips of the tear that was planned.
+/// @param planned  of `target` and `timing`.
+/// @param model    of the same character, with the tear.
+/// @param changes  of the tear.
+/// @return the failures of plan_motion() for target and timing; invalid_argument if no gape was
+///         planned. Allocates.
+[[nodiscard]] SUNDER_API Result<Tension> tension_of_gape(const WoundTarget& target,
+                                                         const PlanTiming& timing,
+                                                         const PlannedMotion& planned,
+                                                         const TornModel& model,
+                                                         std::span<const ChangeRecord> changes);
 
 /// Speed and smoothness of a stroke, between 10 and 90 % of the part of the curve that it cuts.
 struct StrokePace {
