@@ -106,6 +106,7 @@ Result<std::vector<std::byte>> CharacterParts::save(const Character& character,
   LoadedCharacter before;
   before.character = in_source;
   before.source = loaded.source;
+  before.report = loaded.report;
   return save_glb(character, before, options);
 }
 

@@ -109,6 +109,8 @@ sunder_status transfer(const CharacterParts& source, const CharacterParts& targe
   if (!found) return report(found.error());
   LoadedCharacter loaded;
   loaded.source = target.loaded.source;
+  loaded.report.format = target.loaded.report.format;
+  loaded.report.space = target.loaded.report.space;
   loaded.character = std::make_shared<const Character>(std::move(found->character));
   SUNDER_C_TRY(add_character(std::move(loaded), result, target.in_source));
   if (info != nullptr) *info = info_of(*found);

@@ -3,6 +3,7 @@
 #include <sunder/io/character_bytes.h>
 #include <sunder/validation/transfer.h>
 
+#include <numeric>
 #include <string>
 
 #include "c/c_objects.h"
@@ -98,8 +99,9 @@ TEST(CTransfer, names_of_bones_are_read) {
 TEST(CTransfer, a_file_has_the_weights_that_were_transferred) {
   const Character source = make_tube(12, 8, 4);
   Character target = source;
-  std::vector<Influence>& influences = target.meshes[0].weights.influences;
-  for (Influence& influence : influences) influence.slot = 0;
+  SkinWeights& weights = target.meshes[0].weights;  // all hangs on the first bone
+  weights.influences.assign(target.meshes[0].vertex_count(), {0, 1.0f});
+  std::iota(weights.first.begin(), weights.first.end(), 0u);
   const auto glb = save_glb(target);
   ASSERT_TRUE(glb);
   const sunder_character from = create(source);

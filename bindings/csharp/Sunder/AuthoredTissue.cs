@@ -20,12 +20,12 @@ namespace Sunder
       {
         FactorField field = Fields[i];
         if (field == null || field.Values == null) throw new ArgumentNullException("Fields[" + i + "]");
+        Library.CheckNotEmpty(field.Values, "Fields[" + i + "].Values");
         fields[i] = TissueField.Sized;
         fields[i].Mesh = (uint)field.Mesh;
         fields[i].Field = field.Factor;
         fields[i].ValueCount = (uint)field.Values.Length;
-        // An array without elements has no address, but the library shall name the mesh that it does not fit.
-        fields[i].Values = (float*)(field.Values.Length > 0 ? memory.Pin(field.Values) : memory.Take(sizeof(float)));
+        fields[i].Values = (float*)memory.Pin(field.Values);
       }
       to.Fields = fields;
       to.PerforationCount = (uint)(Perforations == null ? 0 : Perforations.Length);
@@ -36,6 +36,7 @@ namespace Sunder
         if (line == null || line.Places == null) throw new ArgumentNullException("Perforations[" + i + "]");
         lines[i] = Perforation.Sized;
         lines[i].PlaceCount = (uint)line.Places.Length;
+        // An array without elements has no address, but the library shall say that two are needed.
         lines[i].Places = (SurfacePlace*)(line.Places.Length > 0 ? memory.Pin(line.Places) : memory.Take(sizeof(SurfacePlace)));
         lines[i].Strength = line.Strength;
       }

@@ -229,8 +229,11 @@ namespace Sunder.Tests
 
       Expect.Fails(() => Gape(character, even(TissueFactor.Strength, 0)), Status.InvalidArgument);
       AuthoredTissue wrong = even(TissueFactor.Strength, 2);
-      wrong.Fields[0].Values = new float[0];
+      wrong.Fields[0].Values = new float[3];
       Expect.Fails(() => Gape(character, wrong), Status.SizeMismatch);
+      wrong.Fields[0].Values = new float[0];
+      Expect.Throws<ArgumentException>(() => Gape(character, wrong), "Fields[0].Values is empty");
+      wrong.Fields[0].Values = values;
       wrong.Fields[0].Mesh = 9;
       Expect.Fails(() => Gape(character, wrong), Status.IndexOutOfRange);
       wrong.Fields[0] = null;

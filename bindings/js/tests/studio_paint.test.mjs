@@ -93,7 +93,7 @@ test('a drag paints, colours show it, and the saved GLB has it as an attribute',
   // The command reads it, and the page shows a file that was painted before.
   if (existsSync(commandFile)) {
     writeFileSync(join(folder, 'painted.glb'), glb);
-    const tear = { op: 'tear', pose: 'rest', stroke: [[[-0.2, 1, 2], [-0.2, 1, -2]], [[0.2, 1.2, 2], [0.2, 1.2, -2]]] };
+    const blade = (x, y) => ({ base: [x, y, 2], tip: [x, y, 0] }), tear = { op: 'tear', pose: 'rest', stroke: [blade(-0.2, 1), blade(0.2, 1.2)] };
     writeFileSync(join(folder, 'tear.json'), JSON.stringify({ sunder_operations: 1, operations: [tear] }));
     execFileSync(commandFile, ['tear', join(folder, 'painted.glb'), '--ops', join(folder, 'tear.json'), '-o', join(folder, 'open.glb'), '--open', '-q',
       '--tissue-field', 'tension=attribute:_TENSION']);

@@ -1,9 +1,10 @@
-// Draws the studio in which a character that waves is torn: node tests/studio_picture.mjs <studio.html> <cactoro.glb> <picture.png>
+// Draws the studio in which a character that waves is torn, and one wound's tension is painted:
+// node tests/studio_picture.mjs <studio.html> <cactoro.glb> <picture.png> <painted.png>
 import { basename } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { openPage } from './chromium.mjs';
 
-const [studioFile, model, picture] = process.argv.slice(2);
+const [studioFile, model, picture, painted] = process.argv.slice(2);
 /** Low enough that the times of this machine are not in the picture. */
 const SIZE = { width: 1280, height: 566, deviceScaleFactor: 1.5 };
 const SETTINGS = { width: 0.006, depth: 0.2, tension: 0.14 };
@@ -13,6 +14,8 @@ const STROKES = [
   [[-0.132, 0.555], [-0.035, 0.60], [0.096, 0.70]],
   [[-0.088, 0.385], [-0.035, 0.43], [0.07, 0.45]],
 ];
+/** Of the brush, in the picture. */
+const PAINTED = [[-0.06, 0.61], [-0.02, 0.63], [0.03, 0.67], [0.06, 0.71]];
 /** Turns about the vertical, radians; distances and heights as shares of the first distance and of the size. */
 const VIEW_OF_STROKES = { turn: -0.32, distance: 0.75 }, VIEW_OF_PICTURE = { turn: 0.25, distance: 1.04, rise: 0.12 };
 
@@ -59,6 +62,36 @@ async function tear({ settings, clip, strokes, views }) {
   look(views[1]);
 }
 
+/** In the page, after tear(): paints more tension along a stroke. */
+async function paint({ stroke, time, factor }) {
+  const { studio, frame } = globalThis.studio;
+  let now = time;
+  const frames = (count) => { for (let i = 0; i < count; ++i) frame(now += 1000 / 60); };
+  const at = ([x, y]) => {
+    const box = document.getElementById('canvas').getBoundingClientRect();
+    return { clientX: box.left + box.width / 2 + x * box.height, clientY: box.top + y * box.height, timeStamp: now };
+  };
+  const set = (id, value, event) => {
+    const input = document.getElementById(id);
+    input.value = value;
+    input.dispatchEvent(new Event(event));
+  };
+  document.querySelector('#tools label:last-of-type input').click();
+  set('field', 'tension', 'change');
+  set('factor', Math.log10(factor), 'input');
+  set('radius', 0.07, 'input');
+  studio.isPlaying = false;
+  studio.applySettings();
+  if (!studio.begin(studio.tool, at(stroke[0]))) throw new Error('paint begins beside the character');
+  for (const place of stroke.slice(1)) {
+    frames(1);
+    studio.move(at(place));
+  }
+  studio.end();
+  await studio.painted;
+  frames(60);
+}
+
 const url = pathToFileURL(studioFile).href, { page, faults, close } = await openPage({ isOwn: (asked) => asked === url });
 try {
   await page.setViewport(SIZE);
@@ -69,6 +102,8 @@ try {
   await page.waitForFunction((name) => globalThis.studio.studio.name === name, {}, basename(model, '.glb'));
   await page.evaluate(tear, { settings: SETTINGS, clip: CLIP, strokes: STROKES, views: [VIEW_OF_STROKES, VIEW_OF_PICTURE] });
   await page.screenshot({ path: picture });
+  await page.evaluate(paint, { stroke: PAINTED, time: 1e6, factor: 3 });
+  await page.screenshot({ path: painted });
   if (faults.length) throw new Error(faults.join('\n'));
 } finally {
   await close();

@@ -6,9 +6,11 @@ import { factorsOf } from './paint.js';
 /** A tenth, the tissue as it is, ten times: colours that people with colour vision deficiencies can tell apart. */
 const LESS = new THREE.Color('#2166ac'), EVEN = new THREE.Color('#e8e4dc'), MORE = new THREE.Color('#b2182b');
 
+const STOPS = [0.1, 0.22, 0.46, 0.8, 1, 1.25, 2.2, 4.6, 10];
+
 function colourOf(factor) {
   const place = Math.max(-1, Math.min(1, Math.log10(Math.max(factor, 1e-9))));
-  return EVEN.clone().lerp(place < 0 ? LESS : MORE, Math.abs(place));
+  return EVEN.clone().lerp(place < 0 ? LESS : MORE, Math.abs(place) ** 0.6);  // small differences are seen too
 }
 function coloursOf(factors) {
   const colours = new Float32Array(3 * factors.length), known = new Map();
@@ -55,7 +57,7 @@ export class PaintedColours {
       new ColouredMesh(mesh, this.#material, coloursOf(factorsOf(instance, i, field)), EVEN));
     const [least, ramp, most, note] = this.#legend.children;
     least.textContent = '× 0.1';
-    ramp.style.background = `linear-gradient(to right, ${[LESS, EVEN, MORE].map((colour) => `#${colour.getHexString()}`).join()})`;
+    ramp.style.background = `linear-gradient(to right, ${STOPS.map((factor) => `#${colourOf(factor).getHexString()}`).join()})`;
     most.textContent = '× 10';
     note.textContent = `The factor of the tissue's ${field}; the middle is 1.`;
     this.#legend.hidden = false;
