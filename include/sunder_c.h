@@ -106,9 +106,9 @@ typedef void (*sunder_release)(void* context, void* memory, uint64_t bytes, uint
 
 /* What later calls allocate comes from the caller; a scene keeps the allocator with which it was
  * created. Memory goes back to where it came from, so that the functions and their context are
- * needed until the process ends. allocate and release null: the heap again. Qhull allocates for
- * itself. Fails: SUNDER_UNSUPPORTED_FEATURE without SUNDER_FEATURE_ALLOCATOR; SUNDER_NULL_POINTER
- * if one of the functions is null. */
+ * needed until the process ends. allocate and release null: the heap again. Qhull, and
+ * the table of all objects, allocate from the heap. Fails: SUNDER_UNSUPPORTED_FEATURE without
+ * SUNDER_FEATURE_ALLOCATOR; SUNDER_NULL_POINTER if one of the functions is null. */
 SUNDER_C_API sunder_status sunder_set_allocator(sunder_allocate allocate, sunder_release release,
                                                 void* context);
 

@@ -60,6 +60,7 @@ class Registry {
 
  private:
   void grow() {
+    const MemoryScope heap(nullptr);  // it stays when all objects of a caller are gone
     if (used_ == kMostSlots) throw std::bad_alloc();
     free_.reserve(used_ + kChunkSize);
     auto chunk = std::make_unique<Chunk>();
@@ -77,7 +78,10 @@ class Registry {
 
 /// Never destroyed: destructors of static objects may still use handles.
 Registry& registry() {
-  static auto* const all = new Registry;
+  static auto* const all = [] {
+    const MemoryScope heap(nullptr);
+    return new Registry;
+  }();
   return *all;
 }
 

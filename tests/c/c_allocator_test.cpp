@@ -49,7 +49,7 @@ std::uint64_t torn_digest(const Character& character) {
 TEST(CAllocator, gives_all_memory_and_gets_it_back) {
   if (!has_allocator()) GTEST_SKIP() << "this build has no allocator hook";
   const Character character = make_tube(24, 12, 6);
-  const std::uint64_t expected = torn_digest(character);  // also makes the tables that stay
+  const std::uint64_t expected = torn_digest(character);
   CountedMemory memory;
   memory.use();
   EXPECT_EQ(torn_digest(character), expected);

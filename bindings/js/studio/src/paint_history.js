@@ -25,5 +25,8 @@ export class PaintHistory {
     this.#done.push(this.#undone.pop());
     return this.#done.at(-1).after;
   }
-  clear() { this.#done = this.#undone = []; }
+  clear() {
+    this.#done = [];
+    this.#undone = [];
+  }
 }
