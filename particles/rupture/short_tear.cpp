@@ -78,12 +78,12 @@ Vec3d greatest_stretch_around(const Tissue& tissue, const std::array<Index, 2>& 
   const double size = trace(at_rest);
   if (!(at_rest.determinant() > kRowDeterminantFraction * size * size)) {  // all in a row
     const Eigen::Vector2d along = multiply(plane.transpose(), longest);
-    return norm(along) > 0 ? Vec3d(plane * normalized(along)) : Vec3d(plane.col(0));
+    return norm(along) > 0 ? Vec3d(multiply(plane, normalized(along))) : Vec3d(plane.col(0));
   }
-  const Eigen::Matrix<double, 3, 2> map = moved * at_rest.inverse();
+  const Eigen::Matrix<double, 3, 2> map = multiply(moved, Eigen::Matrix2d(at_rest.inverse()));
   const Eigen::Matrix2d within = multiply(plane.transpose(), map);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(within * within.transpose());
-  return plane * solver.eigenvectors().col(1);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(multiply(within, within.transpose()));
+  return multiply(plane, solver.eigenvectors().col(1));
 }
 
 ShortTear place_tear(const Tissue& tissue, const SurfacePose& pose, const TearStart& start,
